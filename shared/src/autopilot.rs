@@ -1,0 +1,329 @@
+//! The controller: one step per tick, from measurements to commands.
+//!
+//! [`Autopilot::step`] has no clock, no I/O and no allocation, and it cannot fail: all that could be wrong is checked by
+//! [`Autopilot::new`].
+
+use crate::{
+    device::{Commands, MM_PER_M, Measurements, RAD_PER_CDEG, TICK_HZ},
+    heading::HeadingLoop,
+    math,
+    mission::{Event, Executive, Mission, Phase, Unflyable},
+    navigator::Navigator,
+    parameters::{Parameters, Row},
+    pitch::{PitchLoop, PitchTrim, Steady},
+    servo::{Move, Servo},
+    supervisor::{Abort, Supervisor, Vitals},
+    table::TrimTable,
+    vehicle::{FlightVehicle, Range},
+};
+
+/// Depth above which the vehicle counts as afloat, m.
+const AFLOAT_DEPTH_M: f32 = 1.0;
+/// Depth above which heading is left alone, since the wings are about to leave the water or just entered it, m.
+const HEADING_DEPTH_M: f32 = 2.0;
+/// Time after an inflection before heading is controlled again, s.
+const TURN_SETTLE_S: u32 = 12;
+/// Vertical speed below which the vehicle counts as at rest at the surface, m/s.
+const AFLOAT_RATE_M_S: f32 = 0.1;
+/// Share of the time to reverse buoyancy during which the vehicle still sinks at full speed: it falls with the root of the
+/// net mass, and the mean of √(1 − t) over the way to neutral is 2/3.
+const REVERSAL_SHARE: f32 = 2.0 / 3.0;
+/// Time for which the vehicle's momentum carries it on, s.
+const COASTING_S: f32 = 4.0;
+const KG_PER_G: f32 = 1e-3;
+
+/// Why an autopilot cannot be built.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ConfigurationError {
+    /// A value of the mission cannot be flown by this vehicle.
+    Mission(Unflyable),
+    /// A parameter is outside its bounds.
+    Parameter(&'static Row, i32),
+}
+
+/// The whole controller.
+#[derive(Clone, Debug)]
+pub struct Autopilot<'a> {
+    config: Config<'a>,
+    state: State,
+}
+
+/// What does not change in flight.
+#[derive(Clone, Debug)]
+struct Config<'a> {
+    table: TrimTable<'a>,
+    mission: Mission,
+    supervisor: Supervisor,
+    pitch: PitchLoop,
+    heading: HeadingLoop,
+    r_px_servo: Servo,
+    mu_servo: Servo,
+    vbd_servo: Servo,
+    dive: Steady,
+    climb: Steady,
+    apogee_pitch_cdeg: i32,
+}
+
+/// What does.
+#[derive(Clone, Debug, Default)]
+struct State {
+    navigator: Navigator,
+    executive: Executive,
+    abort: Option<Abort>,
+    dive_trim: PitchTrim,
+    climb_trim: PitchTrim,
+    mu_target_cdeg: i32,
+    r_px_move: Move,
+    mu_move: Move,
+    vbd_move: Move,
+}
+
+/// Where the actuators shall go, and what that is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Targets {
+    r_px_um: i32,
+    mu_cdeg: i32,
+    vbd_ul: i32,
+    pitch_cdeg: i32,
+    heading_cdeg: u16,
+}
+
+impl<'a> Autopilot<'a> {
+    /// Checks a mission and its tuning against the vehicle, and makes ready to fly them.
+    ///
+    /// # Errors
+    /// The first value that cannot be flown.
+    pub fn new(table: &TrimTable<'a>, mission: &Mission, parameters: &Parameters) -> Result<Self, ConfigurationError> {
+        mission.check(table).map_err(ConfigurationError::Mission)?;
+        if let Some((row, value)) = parameters.first_invalid() {
+            return Err(ConfigurationError::Parameter(row, value));
+        }
+        Ok(Self { config: Config::new(table, mission, parameters), state: State::default() })
+    }
+
+    /// One tick: what to do, given what is measured. Ticks count from 0 at 4 Hz.
+    pub fn step(&mut self, tick: u32, measurements: &Measurements) -> Commands {
+        let afloat = self.state.is_afloat();
+        self.state.navigator.update(self.config.table.vehicle(), tick, measurements, afloat);
+        self.supervise(tick);
+        if let Some(event) = self.event(tick, measurements) {
+            self.state.executive.take(tick, event);
+        }
+        let targets = self.targets(tick, measurements);
+        self.drive(measurements, &targets)
+    }
+
+    fn supervise(&mut self, tick: u32) {
+        let state = &mut self.state;
+        let vitals = Vitals {
+            tick,
+            depth_mm: state.navigator.depth_mm(),
+            depth_tick: state.navigator.depth_tick.unwrap_or(0),
+            attitude_tick: state.navigator.attitude_tick.unwrap_or(0),
+        };
+        if let Some(abort) = self.config.supervisor.judge(&vitals)
+            && state.executive.take(tick, Event::Abort)
+        {
+            state.abort = Some(abort);
+        }
+    }
+
+    /// What happened that may end the phase.
+    fn event(&self, tick: u32, measurements: &Measurements) -> Option<Event> {
+        let (config, navigator, executive) = (&self.config, &self.state.navigator, &self.state.executive);
+        let net_mass_kg = config.table.vehicle().net_mass_kg(measurements.vbd_ul);
+        let lead_m = navigator.depth_rate_m_s * config.reversal_s(&executive.phase);
+        let ahead_mm = math::round_to_i32((navigator.depth_m + lead_m) * MM_PER_M);
+        let (met, event) = match executive.phase {
+            Phase::Surface => (self.is_ready_to_dive(tick), Event::ReadyToDive),
+            Phase::Dive => (ahead_mm >= config.mission.dive_to_mm, Event::DeepEnough),
+            Phase::Apogee => (net_mass_kg <= 0.5 * config.climb.net_mass_kg, Event::Light),
+            Phase::Climb if executive.yo < config.mission.yos => {
+                (ahead_mm <= config.mission.climb_to_mm, Event::TopReached)
+            }
+            Phase::Climb => (ahead_mm <= config.mission.climb_to_mm, Event::LastTopReached),
+            Phase::Crest => (net_mass_kg >= 0.5 * config.dive.net_mass_kg, Event::Heavy),
+            Phase::Surfacing => (
+                navigator.depth_m < AFLOAT_DEPTH_M && math::abs(navigator.depth_rate_m_s) < AFLOAT_RATE_M_S,
+                Event::Afloat,
+            ),
+            Phase::Complete | Phase::Recovery => (false, Event::Abort),
+        };
+        met.then_some(event)
+    }
+
+    fn is_ready_to_dive(&self, tick: u32) -> bool {
+        let navigator = &self.state.navigator;
+        tick >= u32::from(self.config.mission.surface_time_s).saturating_mul(TICK_HZ)
+            && navigator.has_position()
+            && navigator.depth_tick == Some(tick)
+            && navigator.attitude_tick == Some(tick)
+    }
+
+    fn targets(&mut self, tick: u32, measurements: &Measurements) -> Targets {
+        let actuators = self.config.actuators();
+        let (lightest_ul, nose_down_um) = (actuators.vbd_ul.max, actuators.r_px_um.max);
+        let heading_cdeg = self.state.heading_cdeg(&self.config.mission);
+        let level = |r_px_um, vbd_ul, pitch_cdeg| Targets { r_px_um, mu_cdeg: 0, vbd_ul, pitch_cdeg, heading_cdeg };
+        let config = &self.config;
+        match self.state.executive.phase {
+            // The antenna sits in the tail: nose down lifts it out of the water.
+            Phase::Surface | Phase::Complete => level(nose_down_um, lightest_ul, 0),
+            Phase::Recovery if self.state.navigator.depth_m < AFLOAT_DEPTH_M => level(nose_down_um, lightest_ul, 0),
+            Phase::Recovery => {
+                let r_px_um = PitchLoop::feed_forward_um(&config.table, &config.climb, 0.0);
+                level(r_px_um, lightest_ul, config.pitch_cdeg(&config.climb))
+            }
+            Phase::Apogee => {
+                let r_px_um = config.level_off_um(&config.dive, self.state.dive_trim);
+                level(
+                    r_px_um,
+                    config.vbd_ul(config.mission.climb_net_mass_g),
+                    config.apogee_pitch_cdeg.saturating_neg(),
+                )
+            }
+            Phase::Crest => {
+                let r_px_um = config.level_off_um(&config.climb, self.state.climb_trim);
+                level(r_px_um, config.vbd_ul(config.mission.dive_net_mass_g), config.apogee_pitch_cdeg)
+            }
+            Phase::Dive => self.glide(tick, measurements, config.dive, config.vbd_ul(config.mission.dive_net_mass_g)),
+            Phase::Climb => {
+                self.glide(tick, measurements, config.climb, config.vbd_ul(config.mission.climb_net_mass_g))
+            }
+            Phase::Surfacing => self.glide(tick, measurements, config.climb, lightest_ul),
+        }
+    }
+
+    /// Holds a steady glide on the heading of the half-yo.
+    fn glide(&mut self, tick: u32, measurements: &Measurements, steady: Steady, vbd_ul: i32) -> Targets {
+        let (config, state) = (&self.config, &mut self.state);
+        let ticks_in_phase = tick.saturating_sub(state.executive.since_tick);
+        let heading_cdeg = state.heading_cdeg(&config.mission);
+        let pitch_cdeg = config.pitch_cdeg(&steady);
+        let attitude = state.navigator.attitude;
+        let trim = if steady.path_angle_rad < 0.0 { &mut state.dive_trim } else { &mut state.climb_trim };
+        if state.executive.phase != Phase::Surfacing {
+            let pitch_error_cdeg = pitch_cdeg.saturating_sub(i32::from(attitude.pitch_cdeg));
+            config.pitch.update(trim, &config.table, &steady, ticks_in_phase, pitch_error_cdeg);
+        }
+        let trim_um = trim.trim_um;
+        if state.navigator.depth_m < HEADING_DEPTH_M {
+            state.mu_target_cdeg = 0;
+        } else if ticks_in_phase >= TURN_SETTLE_S * TICK_HZ || state.executive.phase == Phase::Surfacing {
+            let error_cdeg = math::wrap_cdeg(i32::from(heading_cdeg).saturating_sub(i32::from(attitude.heading_cdeg)));
+            state.mu_target_cdeg =
+                config.heading.mu_cdeg(&config.table, &steady, ticks_in_phase, error_cdeg, state.mu_target_cdeg);
+        }
+        let mu_rad = f32::from(measurements.mu_cdeg) * RAD_PER_CDEG;
+        let r_px_um = PitchLoop::feed_forward_um(&config.table, &steady, mu_rad).saturating_add(trim_um);
+        Targets { r_px_um, mu_cdeg: state.mu_target_cdeg, vbd_ul, pitch_cdeg, heading_cdeg }
+    }
+
+    fn drive(&mut self, measurements: &Measurements, targets: &Targets) -> Commands {
+        let (config, state) = (&self.config, &mut self.state);
+        state.mu_target_cdeg = targets.mu_cdeg;
+        let mu_rate = config.mu_servo.rate(&mut state.mu_move, targets.mu_cdeg, i32::from(measurements.mu_cdeg));
+        let (north_mm, east_mm) = state.navigator.position_mm();
+        Commands {
+            r_px_rate_um_s: config.r_px_servo.rate(&mut state.r_px_move, targets.r_px_um, measurements.r_px_um),
+            mu_rate_cdeg_s: saturate(mu_rate),
+            vbd_rate_ul_s: config.vbd_servo.rate(&mut state.vbd_move, targets.vbd_ul, measurements.vbd_ul),
+            phase: state.executive.phase,
+            yo: state.executive.yo,
+            abort: state.abort,
+            target_pitch_cdeg: saturate(targets.pitch_cdeg),
+            target_heading_cdeg: targets.heading_cdeg,
+            north_mm,
+            east_mm,
+        }
+    }
+}
+
+impl<'a> Config<'a> {
+    fn new(table: &TrimTable<'a>, mission: &Mission, parameters: &Parameters) -> Self {
+        let steady = |path_angle_cdeg: i16, net_mass_g: i16| Steady {
+            path_angle_rad: f32::from(path_angle_cdeg) * RAD_PER_CDEG,
+            net_mass_kg: f32::from(net_mass_g) * KG_PER_G,
+        };
+        let actuators = &table.vehicle().actuators;
+        let servo =
+            |range: Range, rate_up: i32, rate_down: i32, deadband: i32| Servo { range, rate_up, rate_down, deadband };
+        let (r_px_rate, mu_rate) = (actuators.r_px_rate_um_s, actuators.mu_rate_cdeg_s);
+        Self {
+            supervisor: Supervisor::new(mission, parameters),
+            pitch: PitchLoop::new(parameters),
+            heading: HeadingLoop::new(parameters),
+            r_px_servo: servo(actuators.r_px_um, r_px_rate, r_px_rate, parameters.r_px_deadband_um),
+            mu_servo: servo(actuators.mu_cdeg, mu_rate, mu_rate, MU_SERVO_DEADBAND_CDEG),
+            vbd_servo: servo(
+                actuators.vbd_ul,
+                actuators.pump_rate_ul_s,
+                actuators.bleed_rate_ul_s,
+                parameters.vbd_deadband_ul,
+            ),
+            dive: steady(mission.dive_path_angle_cdeg, mission.dive_net_mass_g),
+            climb: steady(mission.climb_path_angle_cdeg, mission.climb_net_mass_g),
+            apogee_pitch_cdeg: parameters.apogee_pitch_cdeg,
+            mission: mission.clone(),
+            table: table.clone(),
+        }
+    }
+
+    fn actuators(&self) -> &crate::vehicle::Actuators {
+        &self.table.vehicle().actuators
+    }
+
+    fn vbd_ul(&self, net_mass_g: i16) -> i32 {
+        let vehicle: &FlightVehicle = self.table.vehicle();
+        vehicle.vbd_ul(net_mass_g)
+    }
+
+    fn pitch_cdeg(&self, steady: &Steady) -> i32 {
+        math::round_to_i32(steady.pitch_rad(&self.table) / RAD_PER_CDEG)
+    }
+
+    /// Axial position for the nearly level pitch of a reversal: the glide's own, scaled by the pitches.
+    fn level_off_um(&self, steady: &Steady, trim: PitchTrim) -> i32 {
+        let glide_um = PitchLoop::feed_forward_um(&self.table, steady, 0.0).saturating_add(trim.trim_um);
+        let share = self.apogee_pitch_cdeg as f32 / math::abs(self.pitch_cdeg(steady) as f32);
+        math::round_to_i32(glide_um as f32 * math::clamp(share, 0.0, 1.0))
+    }
+
+    /// Time for which the vehicle goes on vertically, at the speed it has, after a reversal of buoyancy begins, s.
+    fn reversal_s(&self, phase: &Phase) -> f32 {
+        let mission = &self.mission;
+        let from_g = if *phase == Phase::Dive { mission.dive_net_mass_g } else { mission.climb_net_mass_g };
+        let to_neutral_ul = self.vbd_ul(from_g).saturating_neg();
+        REVERSAL_SHARE * self.vbd_servo.duration_s(to_neutral_ul) + COASTING_S
+    }
+}
+
+/// Rotations finer than this are left alone; the heading loop has a wider band of its own, 0.01°.
+const MU_SERVO_DEADBAND_CDEG: i32 = 100;
+
+impl State {
+    fn is_afloat(&self) -> bool {
+        match self.executive.phase {
+            Phase::Surface | Phase::Complete => true,
+            Phase::Recovery => self.navigator.depth_m < AFLOAT_DEPTH_M,
+            Phase::Dive | Phase::Apogee | Phase::Climb | Phase::Crest | Phase::Surfacing => false,
+        }
+    }
+
+    /// Heading of the half-yo under way; an inflection already aims at the next one's.
+    fn heading_cdeg(&self, mission: &Mission) -> u16 {
+        let yo = self.executive.yo;
+        match self.executive.phase {
+            Phase::Surface | Phase::Dive => mission.heading_cdeg(yo, false),
+            Phase::Crest => mission.heading_cdeg(yo.saturating_add(1), false),
+            Phase::Apogee | Phase::Climb | Phase::Surfacing | Phase::Complete | Phase::Recovery => {
+                mission.heading_cdeg(yo, true)
+            }
+        }
+    }
+}
+
+/// The nearest `i16`.
+fn saturate(value: i32) -> i16 {
+    i16::try_from(value).unwrap_or(if value < 0 { i16::MIN } else { i16::MAX })
+}

@@ -1,0 +1,120 @@
+//! What the controller reads and what it orders, in device integers.
+//!
+//! A simulated sensor, a driver and a frame on the wire all deliver these same integers, so the controller cannot tell them
+//! apart. Integers are exact: they print, hash and replay to the same bits everywhere.
+
+use postcard_schema::Schema;
+use serde::{Deserialize, Serialize};
+
+use crate::{mission::Phase, supervisor::Abort};
+
+/// Ticks per second of [`crate::autopilot::Autopilot::step`].
+pub const TICK_HZ: u32 = 4;
+/// Duration of one tick, s.
+pub const TICK_S: f32 = 0.25;
+
+/// Micrometres per metre: `r_px_um`.
+pub const UM_PER_M: f32 = 1e6;
+/// Microlitres per cubic metre: `vbd_ul`.
+pub const UL_PER_M3: f32 = 1e9;
+/// Radians per hundredth of a degree: every `_cdeg`.
+pub const RAD_PER_CDEG: f32 = core::f32::consts::PI / 18_000.0;
+/// Millimetres per metre: long-lived positions and depths.
+pub const MM_PER_M: f32 = 1e3;
+/// A full turn in hundredths of a degree.
+pub const TURN_CDEG: i32 = 36_000;
+
+/// Everything the controller knows about the world at one tick.
+///
+/// `None` means that the device gave nothing fresh since the last tick.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Schema)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Measurements {
+    /// Pressure above the air's at the centre of buoyancy, Pa.
+    pub pressure_pa: Option<i32>,
+    /// What the attitude and heading reference says.
+    pub attitude: Option<Attitude>,
+    /// Axial position of the moving mass, µm forward of the centre of buoyancy.
+    pub r_px_um: i32,
+    /// Rotation of the moving mass, 0.01°, positive to the left.
+    pub mu_cdeg: i16,
+    /// Volume of the variable buoyancy device beyond neutral, µl.
+    pub vbd_ul: i32,
+    /// Battery voltage, mV.
+    pub battery_mv: u16,
+    /// A position fix, only with the antenna in air.
+    pub gps: Option<GpsFix>,
+}
+
+/// Attitude and body rates, 0.01° and 0.01 °/s.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Schema)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Attitude {
+    /// Right wing down, 0.01°.
+    pub roll_cdeg: i16,
+    /// Nose up, 0.01°.
+    pub pitch_cdeg: i16,
+    /// Clockwise from true north, 0.01°, 0 to 35999.
+    pub heading_cdeg: u16,
+    /// Pitch rate about the body's right axis, 0.01 °/s.
+    pub pitch_rate_cdeg_s: i16,
+    /// Yaw rate about the body's down axis, 0.01 °/s.
+    pub yaw_rate_cdeg_s: i16,
+}
+
+/// A position on the WGS84 ellipsoid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Schema)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct GpsFix {
+    /// Latitude, 1e-7°, north positive.
+    pub lat_e7: i32,
+    /// Longitude, 1e-7°, east positive.
+    pub lon_e7: i32,
+}
+
+/// Everything the controller orders at one tick, and what it thinks it is doing.
+///
+/// Rates hold until the next tick; zero means stop and brake.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Schema)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Commands {
+    /// Speed of the moving mass along the axis, µm/s, forward positive.
+    pub r_px_rate_um_s: i32,
+    /// Rotation speed of the moving mass, 0.01 °/s, positive to the left.
+    pub mu_rate_cdeg_s: i16,
+    /// Flow into the variable buoyancy device, µl/s: pump positive, bleed negative.
+    pub vbd_rate_ul_s: i32,
+    /// The phase that these commands belong to.
+    pub phase: Phase,
+    /// The dive cycle under way, from 1; 0 before the first.
+    pub yo: u16,
+    /// Why the mission ended early, if it did.
+    pub abort: Option<Abort>,
+    /// Pitch that is aimed at, 0.01°.
+    pub target_pitch_cdeg: i16,
+    /// Heading that is aimed at, 0.01°, 0 to 35999.
+    pub target_heading_cdeg: u16,
+    /// Dead-reckoned position north of the mission's origin, mm.
+    pub north_mm: i32,
+    /// Dead-reckoned position east of the mission's origin, mm.
+    pub east_mm: i32,
+}
+
+impl Commands {
+    /// All motors stopped and braked, before anything is known.
+    #[must_use]
+    pub const fn safe() -> Self {
+        Self {
+            r_px_rate_um_s: 0,
+            mu_rate_cdeg_s: 0,
+            vbd_rate_ul_s: 0,
+            phase: Phase::Surface,
+            yo: 0,
+            abort: None,
+            target_pitch_cdeg: 0,
+            target_heading_cdeg: 0,
+            north_mm: 0,
+            east_mm: 0,
+        }
+    }
+}

@@ -1,0 +1,101 @@
+//! What the controller must know of the vehicle it flies.
+
+use heapless::String;
+use serde::{Deserialize, Serialize};
+
+use crate::{device::UL_PER_M3, math};
+
+/// Constants of one vehicle, written into its trim table by the generator and never typed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FlightVehicle {
+    /// Fingerprint of the whole vehicle file's values.
+    pub hash: u64,
+    /// The vehicle's name, for people.
+    pub name: String<32>,
+    /// Water in which `vbd_ul = 0` is neutral, kg/m³.
+    pub density_kg_m3: f32,
+    /// Acceleration of gravity, m/s².
+    pub gravity_m_s2: f32,
+    /// Drives of mass and buoyancy.
+    pub actuators: Actuators,
+    /// Depth to which missions may be planned, mm.
+    pub working_depth_mm: i32,
+    /// Longitudinal flight dynamics, for the reduced model.
+    pub glide: GlideConstants,
+}
+
+impl FlightVehicle {
+    /// Net mass in the water of `density_kg_m3`, kg, positive sinks.
+    #[must_use]
+    pub fn net_mass_kg(&self, vbd_ul: i32) -> f32 {
+        -self.density_kg_m3 * (vbd_ul as f32 / UL_PER_M3)
+    }
+
+    /// Volume of the buoyancy device for a net mass given in g, µl.
+    #[must_use]
+    pub fn vbd_ul(&self, net_mass_g: i16) -> i32 {
+        const KG_PER_G: f32 = 1e-3;
+        math::round_to_i32(-f32::from(net_mass_g) * KG_PER_G / self.density_kg_m3 * UL_PER_M3)
+    }
+}
+
+/// Ranges and rates of the three actuators.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Actuators {
+    /// Axial travel of the moving mass.
+    pub r_px_um: Range,
+    /// Rotation of the moving mass.
+    pub mu_cdeg: Range,
+    /// Volume of the buoyancy device.
+    pub vbd_ul: Range,
+    /// Fastest axial motion, µm/s.
+    pub r_px_rate_um_s: i32,
+    /// Fastest rotation, 0.01 °/s.
+    pub mu_rate_cdeg_s: i32,
+    /// Fastest pumping, µl/s (makes the vehicle lighter).
+    pub pump_rate_ul_s: i32,
+    /// Fastest bleeding, µl/s (makes the vehicle heavier).
+    pub bleed_rate_ul_s: i32,
+}
+
+/// A closed range of device integers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Range {
+    /// Smallest value.
+    pub min: i32,
+    /// Largest value.
+    pub max: i32,
+}
+
+impl Range {
+    /// The nearest value inside the range.
+    #[must_use]
+    pub const fn clamp(self, value: i32) -> i32 {
+        if value < self.min {
+            self.min
+        } else if value > self.max {
+            self.max
+        } else {
+            value
+        }
+    }
+}
+
+/// Constants of the wings-level reduced model (Fan & Woolsey, section 7 of the equations; K-form, per unit ½ρS folded in).
+///
+/// Lift is `(lift_zero + lift_alpha α) V²`, drag is `drag_zero V² + drag_induced L²/V²`, both in newtons with V in m/s.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct GlideConstants {
+    /// Mass with the added mass along b1, kg.
+    pub mass_u_kg: f32,
+    /// Mass with the added mass along b3, kg.
+    pub mass_w_kg: f32,
+    /// Drag at zero lift over V², N s²/m².
+    pub drag_zero: f32,
+    /// Induced drag times V² over lift², s²/(N m²)⁻¹.
+    pub drag_induced: f32,
+    /// Lift at zero angle of attack over V², N s²/m².
+    pub lift_zero: f32,
+    /// Lift slope over V², N s²/(m² rad).
+    pub lift_alpha: f32,
+}

@@ -1,0 +1,3 @@
+//! The command `glider`.
+
+fn main() {}

@@ -1,0 +1,229 @@
+//! A vehicle: what its file says, in SI units.
+
+use nalgebra::{Matrix3, Vector3};
+
+/// Everything known of a vehicle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Vehicle {
+    /// Its name.
+    pub name: String,
+    /// V0, m/s: scales the rate derivatives, whatever the actual speed.
+    pub nominal_speed_m_s: f64,
+    /// Hull, for geometry.
+    pub hull: Hull,
+    /// Wing, for geometry.
+    pub wing: Wing,
+    /// Vertical fin, for geometry.
+    pub fin: Fin,
+    /// Rigid body without the moving mass.
+    pub body: Body,
+    /// The moving mass and its drives.
+    pub moving_mass: MovingMass,
+    /// Added mass and inertia of the water.
+    pub added_mass: AddedMass,
+    /// Coefficients of the viscous forces.
+    pub hydrodynamics: Hydrodynamics,
+    /// Buoyancy engine; needed only to fly.
+    pub buoyancy: Option<Buoyancy>,
+    /// Electrical loads; needed only to fly.
+    pub energy: Option<Energy>,
+    /// How deep it may go; needed only to fly.
+    pub limits: Option<Limits>,
+    /// The water of the static analyses.
+    pub water: Water,
+}
+
+/// A slender body of revolution.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Hull {
+    /// l, m.
+    pub length_m: f64,
+    /// f = l/d.
+    pub fineness: f64,
+}
+
+impl Hull {
+    /// d = l/f, m.
+    #[must_use]
+    pub fn diameter_m(&self) -> f64 {
+        self.length_m / self.fineness
+    }
+}
+
+/// The wing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wing {
+    /// AR = b²/S.
+    pub aspect_ratio: f64,
+    /// 𝒷 = b/d.
+    pub span_ratio: f64,
+    /// t̄ = t/c̄.
+    pub thickness_ratio: f64,
+    /// l_w: quarter chord aft of the centre of buoyancy, over the hull's length.
+    pub position: f64,
+    /// Sweep, deg, back positive.
+    pub sweep_deg: f64,
+    /// Dihedral, deg, tips up positive.
+    pub dihedral_deg: f64,
+    /// Height above the hull's axis, m, up positive.
+    pub height_m: f64,
+}
+
+/// The vertical fin.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fin {
+    /// S_v over the hull's frontal area πd²/4.
+    pub area_ratio: f64,
+    /// l_v: aft of the centre of buoyancy, over the hull's length.
+    pub position: f64,
+    /// Aspect ratio.
+    pub aspect_ratio: f64,
+    /// Thickness over chord.
+    pub thickness_ratio: f64,
+    /// Height of its centre above the hull's axis, m, up positive.
+    pub height_m: f64,
+}
+
+/// The rigid body without the moving mass.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Body {
+    /// m_rb, kg.
+    pub mass_kg: f64,
+    /// m_b, kg, at the origin.
+    pub ballast_kg: f64,
+    /// r_rb, m from the centre of buoyancy, body axes.
+    pub centre_of_mass_m: Vector3<f64>,
+    /// J_rb about the centre of buoyancy, kg m².
+    pub inertia_kg_m2: Matrix3<f64>,
+}
+
+/// The moving mass: a particle that slides along the axis and swings about it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MovingMass {
+    /// m_p, kg.
+    pub mass_kg: f64,
+    /// R_p, m.
+    pub radius_m: f64,
+    /// Axial travel [min, max], m, forward positive.
+    pub travel_m: [f64; 2],
+    /// Axial speed of its drive, m/s.
+    pub rate_m_s: f64,
+    /// Rotation [min, max], deg, positive to the left.
+    pub roll_deg: [f64; 2],
+    /// Speed of its rotation, deg/s.
+    pub roll_rate_deg_s: f64,
+    /// Inertia about its own centre, kg m², in the particle frame: turns with mu; zero for a particle.
+    pub inertia_kg_m2: Vector3<f64>,
+}
+
+/// Added mass and inertia.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AddedMass {
+    /// M_f, kg.
+    pub mass_kg: Matrix3<f64>,
+    /// J_f, kg m².
+    pub inertia_kg_m2: Matrix3<f64>,
+    /// C_f, kg m: row moment axis, column velocity axis.
+    pub coupling_kg_m: Matrix3<f64>,
+}
+
+/// Frame in which the coefficients of moment are given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MomentFrame {
+    /// Body axes (the paper's).
+    Body,
+    /// Axes of the oncoming flow.
+    Current,
+}
+
+/// Coefficients of section 4 of the equations, Nelson's signs: side force along b2 positive.
+#[derive(Clone, Debug, PartialEq)]
+#[allow(missing_docs, reason = "the field's own names: c_y_beta is the derivative of the side force's coefficient by beta")]
+pub struct Hydrodynamics {
+    pub area_m2: f64,
+    pub span_m: f64,
+    pub chord_m: f64,
+    pub moment_frame: MomentFrame,
+    pub c_d_zero: f64,
+    /// K: induced drag over C_L².
+    pub c_d_induced: f64,
+    pub c_l_zero: f64,
+    pub c_l_alpha: f64,
+    pub c_l_q: f64,
+    pub c_y_beta: f64,
+    pub c_y_p: f64,
+    pub c_y_r: f64,
+    pub c_roll_beta: f64,
+    pub c_roll_p: f64,
+    pub c_roll_r: f64,
+    pub c_m_zero: f64,
+    pub c_m_alpha: f64,
+    pub c_m_q: f64,
+    pub c_n_beta: f64,
+    pub c_n_p: f64,
+    pub c_n_r: f64,
+}
+
+/// The variable buoyancy device.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Buoyancy {
+    /// Volume [min, max] beyond neutral in the static water, m³.
+    pub volume_m3: [f64; 2],
+    /// Pumping rate, m³/s.
+    pub pump_rate_m3_s: f64,
+    /// Bleeding rate, m³/s.
+    pub bleed_rate_m3_s: f64,
+    /// Station on the hull's axis, m forward of the centre of buoyancy (drawn; acts at the origin).
+    pub position_m: f64,
+    /// Ideal work over electrical energy, as (gauge pressure in Pa, efficiency), pressure rising.
+    pub efficiency: Vec<[f64; 2]>,
+    /// Electrical power of the pump that no pressure takes away (friction, electronics), W.
+    pub idle_power_w: f64,
+}
+
+/// Electrical loads.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Energy {
+    /// Battery, J.
+    pub battery_j: f64,
+    /// Battery voltage, V.
+    pub battery_v: f64,
+    /// Everything that always runs, W.
+    pub hotel_w: f64,
+    /// Axial drive while it moves, W.
+    pub pitch_motor_w: f64,
+    /// Rotation drive while it moves, W.
+    pub roll_motor_w: f64,
+}
+
+/// How deep it may go.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Limits {
+    /// Deepest planned depth, m.
+    pub working_depth_m: f64,
+    /// Depth that breaks the hull, m.
+    pub crush_depth_m: f64,
+}
+
+/// The water of the static analyses.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Water {
+    /// ρ, kg/m³.
+    pub density_kg_m3: f64,
+    /// g, m/s².
+    pub gravity_m_s2: f64,
+}
+
+impl Vehicle {
+    /// m = m_rb + m_p + m_b, kg.
+    #[must_use]
+    pub fn mass_kg(&self) -> f64 {
+        self.body.mass_kg + self.moving_mass.mass_kg + self.body.ballast_kg
+    }
+
+    /// Displaced volume at which it neither sinks nor rises in the static water, m³.
+    #[must_use]
+    pub fn neutral_volume_m3(&self) -> f64 {
+        self.mass_kg() / self.water.density_kg_m3
+    }
+}

@@ -154,7 +154,7 @@ fn a_wrong_value_is_quoted_with_what_would_be_right() {
                 "rows of [pressure in Pa, rising; efficiency above 0, at most 1]"
             ),
         ),
-        ("battery_v = 15", "battery_v = false", "`energy.battery_v` is false, but must be a number above 0"),
+        ("8e6", "false", "`energy.battery_j` is false, but must be a number above 0"),
         ("300 # chosen", "150 # chosen", "`limits.crush_depth_m` is 150, but must be a number above 200"),
         ("9.81", "0", "`water.gravity_m_s2` is 0, but must be a number above 0"),
     ];

@@ -22,7 +22,11 @@ fn mistake(text: &str) -> String {
 
 /// Line and column of a passage, from 1.
 fn place(text: &str, passage: &str) -> String {
-    let before = &text[..text.find(passage).unwrap()];
+    place_of(text, text.find(passage).unwrap())
+}
+
+fn place_of(text: &str, offset: usize) -> String {
+    let before = &text[..offset];
     let column = before.chars().rev().take_while(|character| *character != '\n').count();
     format!("v.toml:{}:{}: ", before.lines().count() + usize::from(column == 0), column + 1)
 }
@@ -162,8 +166,7 @@ fn a_wrong_value_is_quoted_with_what_would_be_right() {
         let text = with(passage, replacement);
         // The mistake stands where the value begins; that of a list where the list begins.
         let value = if passage == "[1e7, 0.40]" { "[[0, 0.03]" } else { passage };
-        let value = &text[SLOCUM.find(value).unwrap()..];
-        assert_eq!(mistake(&text), place(&text, value) + expected);
+        assert_eq!(mistake(&text), place_of(&text, SLOCUM.find(value).unwrap()) + expected);
     }
 }
 

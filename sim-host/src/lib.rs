@@ -1,6 +1,14 @@
 //! The plant of an underwater glider, and everything that flies it on a host.
 
+pub mod cli;
+pub mod eval;
+pub mod flight;
+pub mod helix;
 pub mod mission_file;
 pub mod pilot;
+pub mod plant;
+pub mod real;
+pub mod table;
 pub mod toml_file;
+pub mod trim;
 pub mod vehicle;

@@ -2,14 +2,14 @@
 
 use super::{
     DrawnGlide,
-    pen::{Anchor, Pen, Point, px},
-    views::Shape,
+    pen::{Anchor, Pen, Point, minus, px},
+    shape::Shape,
 };
 
 /// Length of the longest force, over the panel's width.
-const LONGEST: f64 = 0.27;
+const LONGEST: f64 = 0.33;
 /// Length of the hull over the panel's width.
-const HULL: f64 = 0.42;
+const HULL: f64 = 0.5;
 /// Length of the velocity over the panel's width.
 const VELOCITY: f64 = 0.40;
 
@@ -17,7 +17,7 @@ const VELOCITY: f64 = 0.40;
 pub(super) fn panel(pen: &mut Pen, shape: &Shape, glide: &DrawnGlide, [corner, size]: [Point; 2]) {
     pen.rectangle("frame", corner, size);
     let climbs = glide.path_angle_rad > 0.0;
-    let origin = corner + Point::new(0.44 * size.x, if climbs { 0.52 } else { 0.42 } * size.y);
+    let origin = corner + Point::new(0.43 * size.x, if climbs { 0.5 } else { 0.42 } * size.y);
     let pitch_rad = glide.path_angle_rad + glide.alpha_rad;
     pen.text("caption", corner + Point::new(16.0, 26.0), Anchor::Start, "STEADY GLIDE, SIDE");
     pen.line("horizon", origin - Point::new(0.34 * size.x, 0.0), origin + Point::new(0.5 * size.x, 0.0));
@@ -30,7 +30,12 @@ pub(super) fn panel(pen: &mut Pen, shape: &Shape, glide: &DrawnGlide, [corner, s
     angles(pen, glide, origin, size.x);
     forces(pen, glide, origin, size.x);
     let beside = Point::new(8.0, if climbs { -8.0 } else { 18.0 });
-    pen.text("force", velocity_tip + beside - Point::new(44.0, 0.0), Anchor::Middle, &format!("V {:.3} m/s", glide.speed_m_s));
+    pen.text(
+        "force",
+        velocity_tip + beside - Point::new(44.0, 0.0),
+        Anchor::Middle,
+        &format!("V {:.3} m/s", glide.speed_m_s),
+    );
     values(pen, glide, pitch_rad, corner + Point::new(16.0, size.y - 50.0), size.x - 32.0);
 }
 
@@ -48,7 +53,12 @@ fn angles(pen: &mut Pen, glide: &DrawnGlide, origin: Point, width: f64) {
     let radius = 0.30 * width;
     arc(pen, origin, radius, 0.0, glide.path_angle_rad);
     let middle = direction(glide.path_angle_rad / 2.0);
-    pen.text("label", origin + middle * (radius + 8.0) + Point::new(0.0, 4.0), Anchor::Start, &degrees("γ", glide.path_angle_rad));
+    pen.text(
+        "label",
+        origin + middle * (radius + 8.0) + Point::new(0.0, 4.0),
+        Anchor::Start,
+        &degrees("γ", glide.path_angle_rad),
+    );
     let radius = VELOCITY * width + 16.0;
     arc(pen, origin, radius, glide.path_angle_rad, pitch_rad);
     let end = origin + direction(pitch_rad.max(glide.path_angle_rad)) * (radius + 12.0);
@@ -73,13 +83,18 @@ fn forces(pen: &mut Pen, glide: &DrawnGlide, origin: Point, width: f64) {
     pen.arrow("weight", origin, weight);
     let name = if glide.net_weight_n < 0.0 { "net buoyancy" } else { "net weight" };
     let rows = [
-        (lift, format!("lift {:.2} N", glide.lift_n.abs()), glide.lift_n < 0.0),
-        (drag, format!("drag {:.2} N", glide.drag_n.abs()), glide.path_angle_rad > 0.0),
-        (weight, format!("{name} {:.2} N", glide.net_weight_n.abs()), glide.net_weight_n > 0.0),
+        (lift, Anchor::Start, format!("lift {:.2} N", glide.lift_n.abs())),
+        (drag, Anchor::End, format!("drag {:.2} N", glide.drag_n.abs())),
+        (weight, Anchor::Middle, format!("{name} {:.2} N", glide.net_weight_n.abs())),
     ];
-    for (tip, words, below) in rows {
-        let outward = if below { 20.0 } else { -10.0 };
-        pen.text("force", tip + Point::new(0.0, outward), Anchor::Middle, &words);
+    for (tip, anchor, words) in rows {
+        let beside = match anchor {
+            Anchor::Start => Point::new(10.0, 4.0),
+            Anchor::Middle if glide.net_weight_n < 0.0 => Point::new(0.0, -10.0),
+            Anchor::Middle => Point::new(0.0, 20.0),
+            Anchor::End => Point::new(-8.0, 4.0),
+        };
+        pen.text("force", tip + beside, anchor, &words);
     }
 }
 
@@ -87,10 +102,10 @@ fn forces(pen: &mut Pen, glide: &DrawnGlide, origin: Point, width: f64) {
 fn values(pen: &mut Pen, glide: &DrawnGlide, pitch_rad: f64, at: Point, width: f64) {
     let lift_to_drag = if glide.drag_n > 0.0 { (glide.lift_n / glide.drag_n).abs() } else { 0.0 };
     let columns = [
-        ("path angle γ", format!("{:.2}°", glide.path_angle_rad.to_degrees())),
-        ("pitch θ = γ + α", format!("{:.2}°", pitch_rad.to_degrees())),
+        ("path angle γ", minus(format!("{:.2}°", glide.path_angle_rad.to_degrees()))),
+        ("pitch θ = γ + α", minus(format!("{:.2}°", pitch_rad.to_degrees()))),
         ("lift/drag", format!("{lift_to_drag:.2}")),
-        ("moving mass", format!("{:+.3} m", glide.r_px_m)),
+        ("moving mass", minus(format!("{:+.3} m", glide.r_px_m))),
     ];
     for (index, (name, value)) in columns.iter().enumerate() {
         let place = at + Point::new(index as f64 * width / columns.len() as f64, 0.0);
@@ -100,7 +115,7 @@ fn values(pen: &mut Pen, glide: &DrawnGlide, pitch_rad: f64, at: Point, width: f
 }
 
 fn degrees(name: &str, angle_rad: f64) -> String {
-    format!("{name} {:.2}°", angle_rad.to_degrees())
+    minus(format!("{name} {:.2}°", angle_rad.to_degrees()))
 }
 
 /// Unit vector on the sheet for an angle above the horizon.

@@ -5,6 +5,7 @@
 
 mod forces;
 mod pen;
+mod shape;
 mod views;
 
 use svg::{
@@ -12,9 +13,9 @@ use svg::{
     node::element::{Rectangle, Style},
 };
 
-use crate::vehicle::Vehicle;
+use crate::{trim::Glide, vehicle::Vehicle};
 use pen::{Anchor, Pen, Point};
-use views::Shape;
+use shape::Shape;
 
 /// Width of the sheet, px.
 const SHEET_PX: f64 = 1200.0;
@@ -50,6 +51,25 @@ pub struct DrawnGlide {
     pub r_px_m: f64,
     /// Rotation of the moving mass, rad, positive to the left.
     pub mu_rad: f64,
+}
+
+impl DrawnGlide {
+    /// A wings-level trim with its forces: L = m̃ g cosγ, D = −m̃ g sinγ.
+    #[must_use]
+    pub fn new(vehicle: &Vehicle, glide: &Glide) -> Self {
+        let net_weight_n = glide.net_mass_kg * vehicle.water.gravity_m_s2;
+        let (sin, cos) = glide.path_angle_rad.sin_cos();
+        Self {
+            path_angle_rad: glide.path_angle_rad,
+            alpha_rad: glide.alpha_rad,
+            speed_m_s: glide.speed_m_s,
+            lift_n: net_weight_n * cos,
+            drag_n: -net_weight_n * sin,
+            net_weight_n,
+            r_px_m: glide.r_px_m,
+            mu_rad: 0.0,
+        }
+    }
 }
 
 /// Draws the sheet as an SVG document, 1200 px wide, text as text.

@@ -120,7 +120,15 @@ impl Pen {
         let r = px(radius);
         for (x, y) in [(radius, -radius), (-radius, radius)] {
             let (corner, end) = (at + Point::new(x, 0.0), at + Point::new(0.0, y));
-            let data = format!("M{} {}L{} {}A{r} {r} 0 0 0 {} {}Z", px(at.x), px(at.y), px(corner.x), px(corner.y), px(end.x), px(end.y));
+            let data = format!(
+                "M{} {}L{} {}A{r} {r} 0 0 0 {} {}Z",
+                px(at.x),
+                px(at.y),
+                px(corner.x),
+                px(corner.y),
+                px(end.x),
+                px(end.y)
+            );
             self.path("mass-quarter", data);
         }
     }
@@ -140,6 +148,11 @@ pub(super) fn px(value: f64) -> String {
     let rounded = (value * 10.0).round() / 10.0;
     // No negative zero.
     format!("{}", rounded + 0.0)
+}
+
+/// Numbers with a true minus sign.
+pub(super) fn minus(words: String) -> String {
+    words.replace('-', "−")
 }
 
 /// About how wide a text is, px.

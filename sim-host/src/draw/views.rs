@@ -1,55 +1,16 @@
 //! The three views: outlines to scale, what is inside, labels and dimensions.
 
 use super::{
-    DrawnGlide,
-    pen::{Anchor, Pen, Point, px, spread, width_px},
+    pen::{Anchor, Pen, Point, minus, px, spread, width_px},
+    shape::Shape,
 };
-use crate::vehicle::Vehicle;
 
 /// Radius of the marks for centres and the moving mass, px.
 const MARK_PX: f64 = 6.5;
-/// Diameter of the buoyancy engine's cylinder over the hull's.
-const ENGINE_BORE: f64 = 0.55;
 /// Size of label text, px.
 const LABEL_PX: f64 = 13.0;
 /// Room between two labels of a row, px.
 const LABEL_GAP_PX: f64 = 22.0;
-
-/// A vehicle's outline and what is drawn inside it, m from the centre of buoyancy in body axes.
-pub(super) struct Shape {
-    pub(super) hull_length_m: f64,
-    pub(super) diameter_m: f64,
-    pub(super) span_m: f64,
-    chord_m: f64,
-    wing_thickness_m: f64,
-    quarter_chord_m: f64,
-    tip_aft_m: f64,
-    tip_up_m: f64,
-    wing_up_m: f64,
-    fin_span_m: f64,
-    fin_chord_m: f64,
-    fin_thickness_m: f64,
-    fin_quarter_chord_m: f64,
-    fin_up_m: f64,
-    centre_of_mass_m: [f64; 3],
-    particle_m: [f64; 3],
-    particle_radius_m: f64,
-    particle_kg: f64,
-    travel_m: [f64; 2],
-    roll_rad: [f64; 2],
-    engine: Option<Engine>,
-    /// Extents from the centre of buoyancy.
-    pub(super) aft_m: f64,
-    pub(super) above_m: f64,
-    below_m: f64,
-}
-
-struct Engine {
-    position_m: f64,
-    length_m: f64,
-    bore_m: f64,
-    litres: [f64; 2],
-}
 
 /// Where a view's origin stands on the sheet, and its scale.
 pub(super) struct View {
@@ -61,85 +22,6 @@ impl View {
     /// A place right of and below the origin, m.
     fn at(&self, right_m: f64, down_m: f64) -> Point {
         self.origin + Point::new(right_m, down_m) * self.px_per_m
-    }
-}
-
-impl Shape {
-    pub(super) fn new(vehicle: &Vehicle, glide: &DrawnGlide) -> Self {
-        let (hull, wing, fin, mass) = (&vehicle.hull, &vehicle.wing, &vehicle.fin, &vehicle.moving_mass);
-        let diameter_m = hull.diameter_m();
-        let half_span_m = wing.span_m(hull) / 2.0;
-        let (sin_mu, cos_mu) = glide.mu_rad.sin_cos();
-        let particle_m = [glide.r_px_m, -mass.radius_m * sin_mu, mass.radius_m * cos_mu];
-        let body_m = vehicle.body.centre_of_mass_m;
-        let total = vehicle.mass_kg();
-        let mean = |axis: usize| (vehicle.body.mass_kg * body_m[axis] + mass.mass_kg * particle_m[axis]) / total;
-        let bore_m = ENGINE_BORE * diameter_m;
-        let engine = vehicle.buoyancy.as_ref().map(|engine| {
-            let [least, most] = engine.volume_m3;
-            let length_m = (most - least) / (std::f64::consts::PI * bore_m * bore_m / 4.0);
-            Engine { position_m: engine.position_m, length_m, bore_m, litres: [1e3 * least, 1e3 * most] }
-        });
-        let fin_quarter_chord_m = -fin.position * hull.length_m;
-        let (fin_span_m, fin_chord_m) = (fin.span_m(hull), fin.chord_m(hull));
-        let half_fin_m = fin_span_m / 2.0;
-        Self {
-            hull_length_m: hull.length_m,
-            diameter_m,
-            span_m: 2.0 * half_span_m,
-            chord_m: wing.chord_m(hull),
-            wing_thickness_m: wing.thickness_ratio * wing.chord_m(hull),
-            quarter_chord_m: -wing.position * hull.length_m,
-            tip_aft_m: half_span_m * wing.sweep_deg.to_radians().tan(),
-            tip_up_m: wing.height_m + half_span_m * wing.dihedral_deg.to_radians().tan(),
-            wing_up_m: wing.height_m,
-            fin_span_m,
-            fin_chord_m,
-            fin_thickness_m: fin.thickness_ratio * fin_chord_m,
-            fin_quarter_chord_m,
-            fin_up_m: fin.height_m,
-            centre_of_mass_m: [mean(0), mean(1), mean(2)],
-            particle_m,
-            particle_radius_m: mass.radius_m,
-            particle_kg: mass.mass_kg,
-            travel_m: mass.travel_m,
-            roll_rad: mass.roll_deg.map(f64::to_radians),
-            engine,
-            aft_m: (hull.length_m / 2.0).max(0.75 * fin_chord_m - fin_quarter_chord_m),
-            above_m: (diameter_m / 2.0).max(fin.height_m + half_fin_m),
-            below_m: (diameter_m / 2.0).max(half_fin_m - fin.height_m),
-        }
-    }
-
-    pub(super) fn length_m(&self) -> f64 {
-        self.aft_m + self.hull_length_m / 2.0
-    }
-
-    pub(super) fn height_m(&self) -> f64 {
-        self.above_m + self.below_m
-    }
-
-    /// Half the hull's outline along its axis, as seen from any side: (x, half width).
-    pub(super) fn hull_path(&self, at: impl Fn(f64, f64) -> Point, px_per_m: f64) -> String {
-        let (half, radius) = (self.hull_length_m / 2.0, self.diameter_m / 2.0);
-        let cap = self.diameter_m.min(half);
-        let (rx, ry) = (px(cap * px_per_m), px(radius * px_per_m));
-        let turn = at(1.0, 0.0) - at(0.0, 0.0);
-        let turn = px(turn.y.atan2(turn.x).to_degrees());
-        let point = |x: f64, y: f64| {
-            let place = at(x, y);
-            format!("{} {}", px(place.x), px(place.y))
-        };
-        format!(
-            "M{} L{} A{rx} {ry} {turn} 0 1 {} A{rx} {ry} {turn} 0 1 {} L{} A{rx} {ry} {turn} 0 1 {} A{rx} {ry} {turn} 0 1 {} Z",
-            point(cap - half, -radius),
-            point(half - cap, -radius),
-            point(half, 0.0),
-            point(half - cap, radius),
-            point(cap - half, radius),
-            point(-half, 0.0),
-            point(cap - half, -radius),
-        )
     }
 }
 
@@ -171,19 +53,24 @@ pub(super) fn top(pen: &mut Pen, shape: &Shape, view: &View, dimension_x: f64) {
     );
     centre_line(pen, view, shape);
     inside(pen, shape, view, 1);
-    let [tip_front, tip_back] = [wing[0], wing[5]];
     for tip in [-half, half] {
-        pen.line("extension", at(trail - aft, tip) - Point::new(6.0, 0.0), Point::new(dimension_x - 6.0, at(0.0, tip).y));
+        pen.line(
+            "extension",
+            at(trail - aft, tip) - Point::new(6.0, 0.0),
+            Point::new(dimension_x - 6.0, at(0.0, tip).y),
+        );
     }
     pen.dimension(
         Point::new(dimension_x, at(0.0, half).y),
         Point::new(dimension_x, at(0.0, -half).y),
         &format!("span {:.3} m", shape.span_m),
     );
-    let chord_x = tip_front.x.max(tip_back.x) + 10.0;
-    pen.text("size", Point::new(chord_x, tip_front.y + 12.0), Anchor::Start, &format!("chord {:.3} m", shape.chord_m));
-    let aft = format!("quarter chord {:.3} m aft", -shape.quarter_chord_m);
-    pen.text("size", Point::new(chord_x, tip_front.y + 28.0), Anchor::Start, &aft);
+    // Clear of the leading edge, 32 px in from the tip.
+    let beside = wing[0] + Point::new(10.0 + 32.0 * (aft / half).max(0.0), 0.0);
+    pen.text("size", beside + Point::new(0.0, 12.0), Anchor::Start, &format!("chord {:.3} m", shape.chord_m));
+    let place = if shape.quarter_chord_m > 0.0 { "ahead" } else { "aft" };
+    let words = format!("quarter chord {:.3} m {place}", shape.quarter_chord_m.abs());
+    pen.text("size", beside + Point::new(0.0, 28.0), Anchor::Start, &words);
     axes(pen, view.at(shape.hull_length_m / 2.0, half) - Point::new(50.0, 46.0), [("b₁", 1.0, 0.0), ("b₂", 0.0, 1.0)]);
     pen.text("caption", Point::new(at(0.0, 0.0).x, at(0.0, half).y + 26.0), Anchor::Middle, "TOP");
 }
@@ -209,7 +96,11 @@ pub(super) fn side(pen: &mut Pen, shape: &Shape, view: &View, bounds: [f64; 2]) 
     for end in [-half, half] {
         pen.line("extension", at(end, 0.0), Point::new(at(end, 0.0).x, y + 6.0));
     }
-    pen.dimension(Point::new(at(-half, 0.0).x, y), Point::new(at(half, 0.0).x, y), &format!("hull {:.3} m", shape.hull_length_m));
+    pen.dimension(
+        Point::new(at(-half, 0.0).x, y),
+        Point::new(at(half, 0.0).x, y),
+        &format!("hull {:.3} m", shape.hull_length_m),
+    );
     pen.text("caption", Point::new(at(0.0, 0.0).x, y + 22.0), Anchor::Middle, "SIDE");
 }
 
@@ -239,10 +130,15 @@ pub(super) fn front(pen: &mut Pen, shape: &Shape, view: &View) {
     pen.centre_of_mass(at(shape.centre_of_mass_m[1], shape.centre_of_mass_m[2]), MARK_PX);
     pen.circle("particle", at(shape.particle_m[1], shape.particle_m[2]), MARK_PX);
 
-    let label = view.origin + Point::new(0.62 * shape.diameter_m * view.px_per_m, shape.below_m * view.px_per_m + 18.0);
     let [low, high] = shape.roll_rad.map(f64::to_degrees);
-    pen.line("leader", roll[1] + Point::new(3.0, 3.0), label + Point::new(-4.0, -5.0));
-    pen.text("label", label, Anchor::Start, &format!("rotation {low:.0}° to {high:+.0}°, left positive"));
+    let words = minus(format!("rotation {low:+.0}° to {high:+.0}°, left positive"));
+    let below = view.at(0.0, shape.below_m);
+    pen.text("label", below + Point::new(0.0, 34.0), Anchor::Middle, &words);
+    pen.line(
+        "leader",
+        view.at(0.0, shape.particle_radius_m) + Point::new(0.0, MARK_PX + 3.0),
+        below + Point::new(0.0, 20.0),
+    );
     let above = Point::new(view.origin.x, view.at(0.0, -shape.above_m).y - 22.0);
     let reach = 0.5 * shape.diameter_m * view.px_per_m;
     for side in [-reach, reach] {
@@ -250,7 +146,7 @@ pub(super) fn front(pen: &mut Pen, shape: &Shape, view: &View) {
     }
     let size = format!("diameter {:.3} m", shape.diameter_m);
     pen.dimension(above - Point::new(reach, 0.0), above + Point::new(reach, 0.0), &size);
-    axes(pen, view.at(half, shape.below_m) + Point::new(-6.0, 0.0), [("b₂", -1.0, 0.0), ("b₃", 0.0, 1.0)]);
+    axes(pen, view.at(half, 0.0) + Point::new(-6.0, 34.0), [("b₂", -1.0, 0.0), ("b₃", 0.0, 1.0)]);
     pen.text("caption", Point::new(view.origin.x, view.at(0.0, shape.below_m).y + 84.0), Anchor::Middle, "FRONT");
 }
 
@@ -294,7 +190,7 @@ fn side_labels(pen: &mut Pen, shape: &Shape, view: &View, bounds: [f64; 2]) {
     let mass = &shape.centre_of_mass_m;
     let mut above = vec![(view.origin, "centre of buoyancy".to_owned())];
     if let Some(engine) = &shape.engine {
-        let words = format!("buoyancy engine {:+.2} to {:+.2} L", engine.litres[0], engine.litres[1]);
+        let words = minus(format!("buoyancy engine {:+.2} to {:+.2} L", engine.litres[0], engine.litres[1]));
         above.push((view.at(engine.position_m, -engine.bore_m / 2.0), words));
     }
     let section = view.at(shape.quarter_chord_m - 0.6 * shape.chord_m, -shape.wing_up_m);
@@ -303,12 +199,12 @@ fn side_labels(pen: &mut Pen, shape: &Shape, view: &View, bounds: [f64; 2]) {
     above.push((fin, format!("fin {:.2} × {:.2} m", shape.fin_span_m, shape.fin_chord_m)));
     let [least, most] = shape.travel_m;
     let below = vec![
-        (view.at(mass[0], mass[2]), format!("centre of mass {:+.3}, {:+.3} m", mass[0], mass[2])),
+        (view.at(mass[0], mass[2]), minus(format!("centre of mass {:+.3}, {:+.3} m", mass[0], mass[2]))),
         (
             view.at(shape.particle_m[0], shape.particle_m[2]),
-            format!("moving mass {} kg at {:+.3} m", shape.particle_kg, shape.particle_m[0]),
+            minus(format!("moving mass {} kg at {:+.3} m", shape.particle_kg, shape.particle_m[0])),
         ),
-        (view.at(least, shape.particle_m[2]), format!("travel {least:+.2} to {most:+.2} m")),
+        (view.at(least, shape.particle_m[2]), minus(format!("travel {least:+.2} to {most:+.2} m"))),
     ];
     row(pen, &above, view.at(0.0, -shape.above_m).y - 26.0, -1.0, bounds);
     row(pen, &below, view.at(0.0, shape.below_m).y + 34.0, 1.0, bounds);

@@ -72,6 +72,26 @@ fn the_same_seed_gives_the_same_bits_and_another_seed_others() {
 }
 
 #[test]
+fn measurements_replay_to_the_same_commands() {
+    let file = MissionFile::load("default").unwrap();
+    let vehicle = Vehicle::load(&file.vehicle).unwrap();
+    let bytes = generate(&vehicle, &Envelope::default()).unwrap();
+    let table = TrimTable::parse(&bytes).unwrap();
+    let autopilot = || Autopilot::new(&table, &file.mission, &file.parameters).unwrap();
+    let flying = FlyingVehicle::new(&vehicle).unwrap();
+    let mut log = Vec::new();
+    fly(&flying, &file.mission, &file.start, 1, &mut autopilot(), &mut |tick| {
+        log.push((*tick.measurements, *tick.commands))
+    })
+    .unwrap();
+    let mut again = autopilot();
+    for (tick, (measurements, commands)) in (0..).zip(&log) {
+        assert_eq!(again.step(tick, measurements), *commands, "tick {tick}");
+    }
+    assert!(log.len() > 10_000);
+}
+
+#[test]
 fn too_deep_aborts_and_brings_it_home() {
     // The abort depth lies above the apogee that this mission aims at, as if the pump had been late.
     let (summary, truth) = fly_mission(1, |file| file.mission.abort_depth_mm = file.mission.dive_to_mm + 1);

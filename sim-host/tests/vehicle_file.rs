@@ -112,9 +112,9 @@ fn a_wrong_value_is_quoted_with_what_would_be_right() {
         ("0.05 # c", "5 # c", "`wing.position` is 5, but must be a number from -1 to 1"),
         ("0.8 # c", "-0.8 # c", "`fin.area_ratio` is -0.8, but must be a number of 0 or more"),
         (
-            "[0, 0, 0.0714]",
-            "[0, 0.0714]",
-            "`body.centre_of_mass_m` is [0, 0.0714], but must be 3 numbers, each a finite number",
+            "[0, 0, 0.0713975]",
+            "[0, 0.0713975]",
+            "`body.centre_of_mass_m` is [0, 0.0713975], but must be 3 numbers, each a finite number",
         ),
         (
             "[[0.6, 0, 0], [0, 7, 0], [0, 0, 7]]",

@@ -138,7 +138,10 @@ pub enum MomentFrame {
 
 /// Coefficients of section 4 of the equations, Nelson's signs: side force along b2 positive.
 #[derive(Clone, Debug, PartialEq)]
-#[allow(missing_docs, reason = "the field's own names: c_y_beta is the derivative of the side force's coefficient by beta")]
+#[allow(
+    missing_docs,
+    reason = "the field's own names: c_y_beta is the derivative of the side force's coefficient by beta"
+)]
 pub struct Hydrodynamics {
     pub area_m2: f64,
     pub span_m: f64,

@@ -1,6 +1,14 @@
 //! The plant of an underwater glider, and everything that flies it on a host.
 
+pub mod cli;
+pub mod eval;
+pub mod flight;
+pub mod helix;
 #[cfg(unix)]
 pub mod link;
 pub mod pilot;
+pub mod plant;
+pub mod real;
+pub mod table;
+pub mod trim;
 pub mod vehicle;

@@ -1,3 +1,7 @@
 //! The command `glider`.
 
-fn main() {}
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    sim_host::cli::main()
+}

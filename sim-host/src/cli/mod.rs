@@ -1,0 +1,104 @@
+//! The command line of `glider`: answers on stdout, everything else on stderr, one clear line on bad input.
+
+mod fly;
+mod progress;
+mod table;
+mod trim;
+
+use std::{
+    fs,
+    io::{self, Read, Write},
+    path::{Path, PathBuf},
+    process::ExitCode,
+};
+
+use clap::{Parser, Subcommand};
+use serde::Serialize;
+
+use crate::{eval, vehicle::Vehicle};
+
+/// Underwater gliders: see how one flies before cutting metal, and fly what was seen.
+#[derive(Debug, Parser)]
+#[command(name = "glider", version, arg_required_else_help = true)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Fly a mission, controller in the loop, and report on it
+    Fly(fly::Args),
+    /// Find a steady wings-level glide
+    Trim(trim::Args),
+    /// Generate the trim table that flies
+    Table(table::Args),
+    /// Draw a three-view to scale and the forces of a steady glide, as SVG
+    Draw(trim::DrawArgs),
+    /// Put one state through the equations: JSON from stdin, JSON to stdout
+    Eval(EvalArgs),
+}
+
+#[derive(Debug, clap::Args)]
+struct EvalArgs {
+    /// Path of a vehicle file, or the name of an embedded vehicle
+    vehicle: String,
+    /// One JSON object (the only form there is)
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the command line; the exit code is 0 if all went well.
+#[must_use]
+pub fn main() -> ExitCode {
+    let result = match Cli::parse().command {
+        Command::Fly(args) => fly::run(&args),
+        Command::Trim(args) => trim::run(&args),
+        Command::Table(args) => table::run(&args),
+        Command::Draw(args) => trim::draw(&args),
+        Command::Eval(args) => run_eval(&args),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("error: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run_eval(args: &EvalArgs) -> Result<(), String> {
+    let vehicle = load_vehicle(&args.vehicle)?;
+    let mut text = String::new();
+    io::stdin().read_to_string(&mut text).map_err(|error| format!("stdin: {error}"))?;
+    let request = serde_json::from_str(&text).map_err(|error| format!("stdin: {error}"))?;
+    print_json(&eval::eval(&vehicle, &request))
+}
+
+fn load_vehicle(name_or_path: &str) -> Result<Vehicle, String> {
+    Vehicle::load(name_or_path).map_err(|error| error.to_string())
+}
+
+/// One object on stdout.
+fn print_json(answer: &impl Serialize) -> Result<(), String> {
+    let text = serde_json::to_string(answer).map_err(|error| format!("JSON: {error}"))?;
+    print(&text)
+}
+
+/// A line on stdout. A reader that has gone away is no error.
+fn print(text: &str) -> Result<(), String> {
+    match writeln!(io::stdout(), "{text}") {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(format!("stdout: {error}")),
+        Ok(()) | Err(_) => Ok(()),
+    }
+}
+
+/// Writes a whole file or none: to a neighbour first, then renamed.
+fn write_file(path: &Path, bytes: &[u8]) -> Result<(), String> {
+    let mut neighbour = path.as_os_str().to_owned();
+    neighbour.push(".part");
+    let neighbour = PathBuf::from(neighbour);
+    fs::write(&neighbour, bytes)
+        .and_then(|()| fs::rename(&neighbour, path))
+        .map_err(|error| format!("{}: {error}", path.display()))
+}

@@ -1,0 +1,76 @@
+//! `glider table`: from a vehicle file to the table that the firmware embeds.
+
+use std::path::PathBuf;
+
+use serde::Serialize;
+use shared::table::TrimTable;
+
+use crate::table::{Envelope, InterpolationError, TableErrors, describe, generate, measure};
+
+#[derive(Debug, clap::Args)]
+pub(super) struct Args {
+    /// Path of a vehicle file, or the name of an embedded vehicle
+    vehicle: String,
+    /// Where the table goes
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+    /// Flattest and steepest dive, degrees
+    #[arg(long, num_args = 2, value_names = ["FLAT", "STEEP"], default_values_t = Envelope::default().dive_deg)]
+    dive_deg: Vec<f64>,
+    /// Flattest and steepest climb, degrees
+    #[arg(long, num_args = 2, value_names = ["FLAT", "STEEP"], default_values_t = Envelope::default().climb_deg)]
+    climb_deg: Vec<f64>,
+    /// Least and most net mass, kg, of dives; climbs take the same with the other sign
+    #[arg(long, num_args = 2, value_names = ["LEAST", "MOST"], default_values_t = Envelope::default().net_mass_kg)]
+    net_mass_kg: Vec<f64>,
+    /// Largest rotation of the moving mass, degrees
+    #[arg(long, value_name = "DEG", default_value_t = Envelope::default().mu_deg)]
+    mu_deg: f64,
+    /// One JSON object instead of text
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Serialize)]
+struct Answer {
+    bytes: usize,
+    vehicle_hash: String,
+    interpolation_error: TableErrors,
+}
+
+pub(super) fn run(args: &Args) -> Result<(), String> {
+    let vehicle = super::load_vehicle(&args.vehicle)?;
+    let pair = |values: &[f64]| <[f64; 2]>::try_from(values).map_err(|_| "an envelope takes two numbers".to_string());
+    let envelope = Envelope {
+        dive_deg: pair(&args.dive_deg)?,
+        climb_deg: pair(&args.climb_deg)?,
+        net_mass_kg: pair(&args.net_mass_kg)?,
+        mu_deg: args.mu_deg,
+    };
+    let file = generate(&vehicle, &envelope)?;
+    let table = TrimTable::parse(&file).map_err(|error| describe(&error))?;
+    let errors = measure(&vehicle, &table)?;
+    super::write_file(&args.output, &file)?;
+    if args.json {
+        let vehicle_hash = format!("{:016x}", table.vehicle().hash);
+        return super::print_json(&Answer { bytes: file.len(), vehicle_hash, interpolation_error: errors });
+    }
+    let side = |name: &str, error: &InterpolationError| {
+        format!(
+            "  {name}: speed {:.3} %, turn rate {:.2} %, angle of attack {:.3}°, r_px {:.2} mm",
+            100.0 * error.speed,
+            100.0 * error.turn_rate,
+            error.alpha_rad.to_degrees(),
+            1e3 * error.r_px_m
+        )
+    };
+    super::print(&format!(
+        "{}: {} bytes for {} ({:016x})\nlargest interpolation error against exact trim, midway between nodes\n{}\n{}",
+        args.output.display(),
+        file.len(),
+        vehicle.name,
+        table.vehicle().hash,
+        side("dives", &errors.dive),
+        side("climbs", &errors.climb)
+    ))
+}

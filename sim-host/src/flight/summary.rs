@@ -1,0 +1,156 @@
+//! What came of a flight.
+
+use serde::Serialize;
+use sha2::{Digest, Sha256};
+use shared::{
+    device::{Commands, MM_PER_M, TICK_HZ},
+    mission::Phase,
+    supervisor::Abort,
+};
+
+use super::{EnergyUsed, LINGER_S, TICK_S, Tick, is_over};
+
+/// How a flight ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Outcome {
+    /// At the surface, mission flown.
+    Completed,
+    /// At the surface, mission ended early.
+    Aborted,
+    /// It did not come back.
+    Lost,
+}
+
+/// A place relative to the start, m.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct NorthEast {
+    /// North, m.
+    pub north_m: f64,
+    /// East, m.
+    pub east_m: f64,
+}
+
+/// Where the vehicle came up.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Surfacing {
+    /// By its own dead reckoning, before the first position fix after the dive.
+    pub predicted: Option<NorthEast>,
+    /// In truth, at the same time.
+    pub actual: Option<NorthEast>,
+}
+
+/// What came of a flight.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Summary {
+    /// How it ended.
+    pub outcome: Outcome,
+    /// From the start to the end, s.
+    pub duration_s: f64,
+    /// Deepest place of the centre of buoyancy, m.
+    pub max_depth_m: f64,
+    /// Ticks flown.
+    pub ticks: u32,
+    /// Electrical energy used, J.
+    pub energy_j: EnergyUsed,
+    /// Where it came up.
+    pub surfacing: Surfacing,
+    /// Reasons for which the mission ended early.
+    pub aborts: Vec<String>,
+    /// Time that the loop took, s.
+    pub wall_s: f64,
+    /// Simulated over real time of the loop.
+    pub real_time_factor: f64,
+    /// SHA-256 of all commands as encoded on the wire.
+    pub trace_hash: String,
+}
+
+/// Gathers the summary tick by tick.
+pub(super) struct Log {
+    ticks: u32,
+    max_depth_m: f64,
+    dived: bool,
+    /// A position was fixed after the dive.
+    fixed: bool,
+    surfacing: Surfacing,
+    abort: Option<Abort>,
+    trace: TraceHash,
+    phase: Phase,
+    over_ticks: u32,
+}
+
+impl Log {
+    pub(super) fn new() -> Self {
+        Self {
+            ticks: 0,
+            max_depth_m: 0.0,
+            dived: false,
+            fixed: false,
+            surfacing: Surfacing { predicted: None, actual: None },
+            abort: None,
+            trace: TraceHash::default(),
+            phase: Phase::Surface,
+            over_ticks: 0,
+        }
+    }
+
+    pub(super) fn take(&mut self, tick: &Tick<'_>) {
+        let (commands, position) = (tick.commands, &tick.state.position_m);
+        self.ticks += 1;
+        self.max_depth_m = self.max_depth_m.max(position.z);
+        self.dived |= commands.phase == Phase::Dive;
+        self.fixed |= self.dived && tick.measurements.gps.is_some();
+        if self.dived && !self.fixed {
+            let metres = |mm: i32| f64::from(mm) / f64::from(MM_PER_M);
+            self.surfacing = Surfacing {
+                predicted: Some(NorthEast { north_m: metres(commands.north_mm), east_m: metres(commands.east_mm) }),
+                actual: Some(NorthEast { north_m: position.x, east_m: position.y }),
+            };
+        }
+        self.abort = commands.abort;
+        self.trace.take(commands);
+        self.phase = commands.phase;
+    }
+
+    /// How the flight ended, once it has been over, antenna clear, for long enough.
+    pub(super) fn ended(&mut self, antenna_is_clear: bool) -> Option<super::Outcome> {
+        let over = is_over(self.phase).filter(|_| antenna_is_clear)?;
+        self.over_ticks += 1;
+        (self.over_ticks >= LINGER_S * TICK_HZ).then_some(over)
+    }
+
+    pub(super) fn summary(self, outcome: Outcome, used: &EnergyUsed, wall_s: f64) -> Summary {
+        let duration_s = f64::from(self.ticks) * TICK_S;
+        Summary {
+            outcome,
+            duration_s,
+            max_depth_m: self.max_depth_m,
+            ticks: self.ticks,
+            energy_j: *used,
+            surfacing: self.surfacing,
+            aborts: self.abort.iter().map(|abort| format!("{abort:?}")).collect(),
+            wall_s,
+            real_time_factor: duration_s / wall_s,
+            trace_hash: self.trace.finish(),
+        }
+    }
+}
+
+/// SHA-256 over commands as they are encoded on the wire.
+#[derive(Clone, Debug, Default)]
+pub struct TraceHash(Sha256);
+
+impl TraceHash {
+    /// Takes the commands of one tick.
+    pub fn take(&mut self, commands: &Commands) {
+        let mut bytes = [0; shared::wire::MAX_FRAME];
+        let encoded = postcard::to_slice(commands, &mut bytes).map_or(&[][..], |used| &*used);
+        self.0.update(encoded);
+    }
+
+    /// The hash, in hexadecimal.
+    #[must_use]
+    pub fn finish(self) -> String {
+        self.0.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+    }
+}

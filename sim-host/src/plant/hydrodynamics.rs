@@ -1,0 +1,97 @@
+//! Section 4 of the equations: viscous force and moment.
+
+use nalgebra::Vector3;
+
+use super::{Plant, State};
+use crate::{real::Real, vehicle::MomentFrame};
+
+/// Direction of the oncoming flow.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FlowAngles<T: Real> {
+    /// V, m/s.
+    pub speed_m_s: T,
+    /// α = atan2(w, u), rad.
+    pub alpha_rad: T,
+    /// β = asin(v/V), rad.
+    pub beta_rad: T,
+}
+
+impl<T: Real> FlowAngles<T> {
+    /// Of a velocity in body axes; all zero at rest.
+    #[must_use]
+    pub fn new(velocity_m_s: &Vector3<T>) -> Self {
+        let (u, v, w) = (velocity_m_s.x, velocity_m_s.y, velocity_m_s.z);
+        let in_plane = T::hypot(u, w);
+        let zero = T::constant(0.0);
+        let angle = |y: T, x: T| if y.value() == 0.0 && x.value() == 0.0 { zero } else { y.atan2(x) };
+        Self { speed_m_s: T::hypot(in_plane, v), alpha_rad: angle(w, u), beta_rad: angle(v, in_plane) }
+    }
+}
+
+/// Viscous force and moment, body axes, with the coefficients they come from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Viscous<T: Real> {
+    /// f_v, N.
+    pub force_n: Vector3<T>,
+    /// m_v, N m.
+    pub moment_nm: Vector3<T>,
+    /// C_L.
+    pub lift_coefficient: T,
+    /// C_D.
+    pub drag_coefficient: T,
+}
+
+impl<T: Real> Plant<T> {
+    /// Viscous force and moment at a velocity and a rate (body axes, relative to the water).
+    ///
+    /// The rate derivatives are scaled by the constant nominal speed, so a damping moment grows with V² times the rate.
+    #[must_use]
+    pub fn viscous(&self, velocity_m_s: &Vector3<T>, rate_rad_s: &Vector3<T>) -> Viscous<T> {
+        let c = &self.coefficients;
+        let flow = FlowAngles::new(velocity_m_s);
+        let (alpha, beta) = (flow.alpha_rad, flow.beta_rad);
+        let per_speed = T::constant(0.5) / self.nominal_speed_m_s;
+        let p = rate_rad_s.x * c.span_m * per_speed;
+        let q = rate_rad_s.y * c.chord_m * per_speed;
+        let r = rate_rad_s.z * c.span_m * per_speed;
+        let lateral = |[b, by_p, by_r]: [T; 3]| b * beta + by_p * p + by_r * r;
+        let longitudinal = |[zero, a, by_q]: [T; 3]| zero + a * alpha + by_q * q;
+
+        let lift_coefficient = longitudinal(c.lift);
+        let drag_coefficient = c.drag[0] + c.drag[1] * lift_coefficient * lift_coefficient;
+        // Y is positive along b2; lift and drag oppose the flow axes 3 and 1.
+        let in_flow_axes = Vector3::new(-drag_coefficient, lateral(c.side), -lift_coefficient);
+        let moment =
+            Vector3::new(lateral(c.roll) * c.span_m, longitudinal(c.pitch) * c.chord_m, lateral(c.yaw) * c.span_m);
+
+        let pressure_n = T::constant(0.5) * self.density_kg_m3 * flow.speed_m_s * flow.speed_m_s * c.area_m2;
+        let to_body = |vector: Vector3<T>| flow_to_body(&vector, alpha, beta);
+        let moment = match c.moment_frame {
+            MomentFrame::Body => moment,
+            MomentFrame::Current => to_body(moment),
+        };
+        Viscous {
+            force_n: to_body(in_flow_axes) * pressure_n,
+            moment_nm: moment * pressure_n,
+            lift_coefficient,
+            drag_coefficient,
+        }
+    }
+
+    /// Viscous force and moment in a state, in still water.
+    #[must_use]
+    pub fn viscous_in(&self, state: &State<T>) -> Viscous<T> {
+        self.viscous(&state.velocity_m_s, &state.rate_rad_s)
+    }
+}
+
+/// R_BC(α, β): from the axes of the oncoming flow to body axes.
+fn flow_to_body<T: Real>(vector: &Vector3<T>, alpha: T, beta: T) -> Vector3<T> {
+    let (sa, ca) = (alpha.sin(), alpha.cos());
+    let (sb, cb) = (beta.sin(), beta.cos());
+    Vector3::new(
+        ca * cb * vector.x - ca * sb * vector.y - sa * vector.z,
+        sb * vector.x + cb * vector.y,
+        sa * cb * vector.x - sa * sb * vector.y + ca * vector.z,
+    )
+}

@@ -1,0 +1,179 @@
+//! The plant: eight degrees of freedom of a rigid body with a moving particle and a variable displaced volume.
+//!
+//! Equations (1)–(8) and Appendix A of Fan & Woolsey (2013). Body axes forward, right, down, origin at the centre of
+//! buoyancy; inertial axes north, east, down; the particle's polar angle `mu` hangs down at 0 and swings left when positive.
+//! The velocity `η = (v, ω, ṙ_px, μ̇)`; the kinetic energy is `½ ηᵀ M(r_p) η`; `M η̇ = rhs − Ṁ η` is solved, never lagged.
+
+mod attitude;
+mod dynamics;
+mod hydrodynamics;
+mod inertia;
+mod integrate;
+mod solve;
+mod surface;
+
+pub use attitude::{euler_from_quaternion, quaternion_from_euler, rotation_from_quaternion};
+pub use dynamics::{Input, Reaction};
+pub use hydrodynamics::{FlowAngles, Viscous};
+pub use inertia::Matrix8;
+pub use integrate::{Particle, rk4_step};
+
+use nalgebra::{Matrix3, Vector3, Vector4};
+
+use crate::{
+    real::Real,
+    vehicle::{Hydrodynamics, MomentFrame, Vehicle},
+};
+
+/// Where the vehicle is and how it moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct State<T: Real> {
+    /// X: north, east, down, m.
+    pub position_m: Vector3<T>,
+    /// Unit quaternion (w, x, y, z) from body to inertial axes.
+    pub quaternion: Vector4<T>,
+    /// v: body axes, m/s.
+    pub velocity_m_s: Vector3<T>,
+    /// ω: body axes, rad/s.
+    pub rate_rad_s: Vector3<T>,
+    /// r_px: axial position of the particle, m.
+    pub r_px_m: T,
+    /// Its rate, m/s.
+    pub r_px_rate_m_s: T,
+    /// μ: polar angle of the particle, rad.
+    pub mu_rad: T,
+    /// Its rate, rad/s.
+    pub mu_rate_rad_s: T,
+    /// V_d, m³.
+    pub displaced_volume_m3: T,
+}
+
+impl<T: Real> State<T> {
+    /// At rest at the origin, level, the particle centred.
+    #[must_use]
+    pub fn at_rest(displaced_volume_m3: T) -> Self {
+        let zero = T::constant(0.0);
+        Self {
+            position_m: Vector3::repeat(zero),
+            quaternion: Vector4::new(T::constant(1.0), zero, zero, zero),
+            velocity_m_s: Vector3::repeat(zero),
+            rate_rad_s: Vector3::repeat(zero),
+            r_px_m: zero,
+            r_px_rate_m_s: zero,
+            mu_rad: zero,
+            mu_rate_rad_s: zero,
+            displaced_volume_m3,
+        }
+    }
+}
+
+/// The constants of one vehicle in one water.
+#[derive(Clone, Debug)]
+pub struct Plant<T: Real> {
+    mass_kg: T,
+    density_kg_m3: T,
+    gravity_m_s2: T,
+    nominal_speed_m_s: T,
+    /// m_rb r_rb, kg m.
+    body_moment_kg_m: Vector3<T>,
+    /// m_p, kg.
+    particle_kg: T,
+    /// R_p, m.
+    particle_radius_m: T,
+    /// Inertia of the moving mass about its own centre, particle frame, kg m².
+    particle_inertia_kg_m2: Vector3<T>,
+    /// Constant part of M's translational block: m_rb + m_b + M_f.
+    fixed_mass_kg: Matrix3<T>,
+    /// Constant part of M's lower left block (row moment, column velocity): m_rb r̂_rb + C_f.
+    fixed_coupling_kg_m: Matrix3<T>,
+    /// Constant part of M's rotational block: J_rb + J_f.
+    fixed_inertia_kg_m2: Matrix3<T>,
+    coefficients: Coefficients<T>,
+    /// Present where the water has a surface.
+    hull: Option<surface::Hull<T>>,
+}
+
+/// Coefficients of the viscous forces in the plant's scalar; names as in [`Hydrodynamics`].
+#[derive(Clone, Debug)]
+#[allow(missing_docs, reason = "documented in `Hydrodynamics`")]
+pub(crate) struct Coefficients<T: Real> {
+    pub(crate) area_m2: T,
+    pub(crate) span_m: T,
+    pub(crate) chord_m: T,
+    pub(crate) moment_frame: MomentFrame,
+    /// drag: zero, induced.
+    pub(crate) drag: [T; 2],
+    /// lift: zero, alpha, q.
+    pub(crate) lift: [T; 3],
+    /// side: beta, p, r.
+    pub(crate) side: [T; 3],
+    /// roll: beta, p, r.
+    pub(crate) roll: [T; 3],
+    /// pitch: zero, alpha, q.
+    pub(crate) pitch: [T; 3],
+    /// yaw: beta, p, r.
+    pub(crate) yaw: [T; 3],
+}
+
+impl<T: Real> Coefficients<T> {
+    fn new(h: &Hydrodynamics) -> Self {
+        let three = |a: f64, b: f64, c: f64| [a, b, c].map(T::constant);
+        Self {
+            area_m2: T::constant(h.area_m2),
+            span_m: T::constant(h.span_m),
+            chord_m: T::constant(h.chord_m),
+            moment_frame: h.moment_frame,
+            drag: [h.c_d_zero, h.c_d_induced].map(T::constant),
+            lift: three(h.c_l_zero, h.c_l_alpha, h.c_l_q),
+            side: three(h.c_y_beta, h.c_y_p, h.c_y_r),
+            roll: three(h.c_roll_beta, h.c_roll_p, h.c_roll_r),
+            pitch: three(h.c_m_zero, h.c_m_alpha, h.c_m_q),
+            yaw: three(h.c_n_beta, h.c_n_p, h.c_n_r),
+        }
+    }
+}
+
+impl<T: Real> Plant<T> {
+    /// The plant of a vehicle in the water of its static analyses.
+    #[must_use]
+    pub fn new(vehicle: &Vehicle) -> Self {
+        let c = T::constant;
+        let vector = |v: &Vector3<f64>| v.map(c);
+        let (body, water) = (&vehicle.body, &vehicle.water);
+        let moment = body.centre_of_mass_m * body.mass_kg;
+        let mass = Matrix3::from_diagonal_element(body.mass_kg + body.ballast_kg) + vehicle.added_mass.mass_kg;
+        Self {
+            mass_kg: c(vehicle.mass_kg()),
+            density_kg_m3: c(water.density_kg_m3),
+            gravity_m_s2: c(water.gravity_m_s2),
+            nominal_speed_m_s: c(vehicle.nominal_speed_m_s),
+            body_moment_kg_m: vector(&moment),
+            particle_kg: c(vehicle.moving_mass.mass_kg),
+            particle_radius_m: c(vehicle.moving_mass.radius_m),
+            particle_inertia_kg_m2: vector(&vehicle.moving_mass.inertia_kg_m2),
+            fixed_mass_kg: mass.map(c),
+            fixed_coupling_kg_m: (moment.cross_matrix() + vehicle.added_mass.coupling_kg_m).map(c),
+            fixed_inertia_kg_m2: (body.inertia_kg_m2 + vehicle.added_mass.inertia_kg_m2).map(c),
+            coefficients: Coefficients::new(&vehicle.hydrodynamics),
+            hull: None,
+        }
+    }
+
+    /// Net mass m̃ = m − ρ V_d, kg, positive sinks.
+    #[must_use]
+    pub fn net_mass_kg(&self, displaced_volume_m3: T) -> T {
+        self.mass_kg - self.density_kg_m3 * displaced_volume_m3
+    }
+
+    /// Displaced volume for a net mass, m³.
+    #[must_use]
+    pub fn displaced_volume_m3(&self, net_mass_kg: T) -> T {
+        (self.mass_kg - net_mass_kg) / self.density_kg_m3
+    }
+
+    /// r_p, m, body axes: (r_px, −R_p sin μ, R_p cos μ).
+    #[must_use]
+    pub fn particle_m(&self, r_px_m: T, mu_rad: T) -> Vector3<T> {
+        Vector3::new(r_px_m, -self.particle_radius_m * mu_rad.sin(), self.particle_radius_m * mu_rad.cos())
+    }
+}

@@ -1,0 +1,186 @@
+//! Wings-level steady glides: section 7 of the equations.
+
+use nalgebra::{Vector3, Vector4};
+use serde::Serialize;
+
+use crate::{
+    plant::{Plant, State, quaternion_from_euler},
+    vehicle::Vehicle,
+};
+
+/// Which glide is asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Condition {
+    /// Path angle γ, rad, climbing positive.
+    PathAngle(f64),
+    /// The dive that goes farthest per time.
+    MaxHorizontalSpeed,
+    /// The flattest dive.
+    MinGlideAngle,
+}
+
+/// How fast, or how heavy.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Scale {
+    /// Speed, m/s.
+    Speed(f64),
+    /// Net mass, kg, positive sinks.
+    NetMass(f64),
+}
+
+/// A steady wings-level glide.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Glide {
+    /// V, m/s.
+    pub speed_m_s: f64,
+    /// γ, rad, climbing positive.
+    pub path_angle_rad: f64,
+    /// α, rad.
+    pub alpha_rad: f64,
+    /// θ = γ + α, rad.
+    pub pitch_rad: f64,
+    /// m̃, kg, positive sinks.
+    pub net_mass_kg: f64,
+    /// Axial position of the moving mass, m.
+    pub r_px_m: f64,
+    /// V_d, m³.
+    pub displaced_volume_m3: f64,
+    /// C_L.
+    pub lift_coefficient: f64,
+    /// C_D.
+    pub drag_coefficient: f64,
+    /// What stands against flying it: limits of the actuators, lack of symmetry.
+    pub warnings: Vec<String>,
+}
+
+/// The wings-level glide of a vehicle in the water of its static analyses.
+///
+/// Of the two glides at one path angle it gives the one with the smaller |α|.
+///
+/// # Errors
+/// One line that says which input cannot be met, and the nearest that can.
+pub fn glide(vehicle: &Vehicle, condition: Condition, scale: Scale) -> Result<Glide, String> {
+    let hydro = &vehicle.hydrodynamics;
+    let lift_coefficient = match condition {
+        Condition::PathAngle(path_angle_rad) => lift_at_path_angle(vehicle, path_angle_rad)?,
+        Condition::MaxHorizontalSpeed => lift_at_max_horizontal_speed(hydro.c_d_zero, hydro.c_d_induced),
+        Condition::MinGlideAngle => (hydro.c_d_zero / hydro.c_d_induced).sqrt(),
+    };
+    let drag_coefficient = hydro.c_d_zero + hydro.c_d_induced * lift_coefficient * lift_coefficient;
+    let path_angle_rad = match condition {
+        Condition::PathAngle(path_angle_rad) => path_angle_rad,
+        Condition::MaxHorizontalSpeed | Condition::MinGlideAngle => -libm::atan2(drag_coefficient, lift_coefficient),
+    };
+    let sinking = -path_angle_rad.signum();
+    let (speed_m_s, net_mass_kg) =
+        speed_and_net_mass(vehicle, libm::hypot(lift_coefficient, drag_coefficient), sinking, scale)?;
+    let alpha_rad = (lift_coefficient - hydro.c_l_zero) / hydro.c_l_alpha;
+    let plant = Plant::new(vehicle);
+    let mut glide = Glide {
+        speed_m_s,
+        path_angle_rad,
+        alpha_rad,
+        pitch_rad: path_angle_rad + alpha_rad,
+        net_mass_kg,
+        r_px_m: 0.0,
+        displaced_volume_m3: plant.displaced_volume_m3(net_mass_kg),
+        lift_coefficient,
+        drag_coefficient,
+        warnings: Vec::new(),
+    };
+    glide.r_px_m = balancing_r_px_m(&plant, &glide);
+    glide.warnings = warnings(vehicle, &plant, &glide);
+    Ok(glide)
+}
+
+impl Glide {
+    /// The glide as a state of the plant, heading north, at some depth.
+    #[must_use]
+    pub fn state(&self) -> State<f64> {
+        let quaternion: Vector4<f64> = quaternion_from_euler(&Vector3::new(0.0, self.pitch_rad, 0.0));
+        let (sin_alpha, cos_alpha) = libm::sincos(self.alpha_rad);
+        State {
+            quaternion,
+            velocity_m_s: Vector3::new(cos_alpha, 0.0, sin_alpha) * self.speed_m_s,
+            r_px_m: self.r_px_m,
+            ..State::at_rest(self.displaced_volume_m3)
+        }
+    }
+}
+
+/// Roots of K C_L² + C_L tanγ + C_D0 = 0; the one with the smaller |α|.
+fn lift_at_path_angle(vehicle: &Vehicle, path_angle_rad: f64) -> Result<f64, String> {
+    let hydro = &vehicle.hydrodynamics;
+    let tangent = libm::tan(path_angle_rad);
+    let discriminant = tangent * tangent - 4.0 * hydro.c_d_induced * hydro.c_d_zero;
+    let upright = path_angle_rad != 0.0 && path_angle_rad.abs() <= std::f64::consts::FRAC_PI_2;
+    if !upright || discriminant.is_nan() || discriminant < 0.0 {
+        let flattest = libm::atan(2.0 * (hydro.c_d_induced * hydro.c_d_zero).sqrt()).to_degrees();
+        return Err(format!(
+            "path angle {:.4}°: {} glides between {flattest:.4}° and 90°, down (−) or up (+)",
+            path_angle_rad.to_degrees(),
+            vehicle.name
+        ));
+    }
+    // The form without cancellation for the root near zero, then its partner.
+    let sum = -tangent - tangent.signum() * discriminant.sqrt();
+    let roots = [2.0 * hydro.c_d_zero / sum, sum / (2.0 * hydro.c_d_induced)];
+    let size = |lift: &f64| (lift - hydro.c_l_zero).abs();
+    Ok(if size(&roots[0]) <= size(&roots[1]) { roots[0] } else { roots[1] })
+}
+
+/// Section 6: maximises C_L/(C_L² + C_D²)^¾.
+fn lift_at_max_horizontal_speed(c_d_zero: f64, c_d_induced: f64) -> f64 {
+    let delta = 2.0 * c_d_induced * c_d_zero;
+    let r = -(1.0 + delta) + ((1.0 + delta) * (1.0 + delta) + 8.0 * delta * delta).sqrt();
+    (2.0 * r).sqrt() / (4.0 * c_d_induced)
+}
+
+/// ½ρV²S √(C_L² + C_D²) = |m̃| g.
+fn speed_and_net_mass(vehicle: &Vehicle, resultant: f64, sinking: f64, scale: Scale) -> Result<(f64, f64), String> {
+    let per_speed_squared = 0.5 * vehicle.water.density_kg_m3 * vehicle.hydrodynamics.area_m2 * resultant;
+    match scale {
+        Scale::Speed(speed_m_s) if speed_m_s.is_finite() && speed_m_s > 0.0 => {
+            Ok((speed_m_s, sinking * per_speed_squared * speed_m_s * speed_m_s / vehicle.water.gravity_m_s2))
+        }
+        Scale::Speed(speed_m_s) => Err(format!("speed {speed_m_s} m/s: must be positive")),
+        Scale::NetMass(net_mass_kg) if net_mass_kg.is_finite() && net_mass_kg * sinking > 0.0 => {
+            Ok(((net_mass_kg.abs() * vehicle.water.gravity_m_s2 / per_speed_squared).sqrt(), net_mass_kg))
+        }
+        Scale::NetMass(net_mass_kg) => {
+            let right = if sinking > 0.0 { "positive to glide down" } else { "negative to glide up" };
+            Err(format!("net mass {net_mass_kg} kg: must be {right}"))
+        }
+    }
+}
+
+/// The axial position at which no pitching moment is left; the moment is linear in it.
+fn balancing_r_px_m(plant: &Plant<f64>, glide: &Glide) -> f64 {
+    let moment = |r_px_m: f64| plant.body_residual(&State { r_px_m, ..glide.state() })[4];
+    let (centred, forward) = (moment(0.0), moment(1.0));
+    centred / (centred - forward)
+}
+
+fn warnings(vehicle: &Vehicle, plant: &Plant<f64>, glide: &Glide) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let [aft, fore] = vehicle.moving_mass.travel_m;
+    if !(aft..=fore).contains(&glide.r_px_m) {
+        warnings.push(format!("r_px {:.4} m is beyond the travel of the moving mass, {aft} to {fore} m", glide.r_px_m));
+    }
+    if let Some(buoyancy) = &vehicle.buoyancy {
+        let volume = glide.displaced_volume_m3 - vehicle.neutral_volume_m3();
+        let [least, most] = buoyancy.volume_m3;
+        if !(least..=most).contains(&volume) {
+            warnings.push(format!("volume {volume:.6} m³ is beyond the buoyancy engine, {least} to {most} m³"));
+        }
+    }
+    let residual = plant.body_residual(&glide.state());
+    let weight_n = glide.net_mass_kg.abs() * vehicle.water.gravity_m_s2;
+    if residual.amax() > 1e-9 * weight_n {
+        warnings.push(format!(
+            "the vehicle is not symmetric: wings level leaves a side force of {:.3e} N, a roll of {:.3e} N m and a yaw of {:.3e} N m",
+            residual[1], residual[3], residual[5]
+        ));
+    }
+    warnings
+}

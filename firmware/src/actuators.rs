@@ -32,28 +32,18 @@ pub struct Positions {
     pub mu_cdeg: i16,
 }
 
-/// Pump and both axes of the moving mass, each with its own kind of PWM channel.
+/// Pump and both axes of the moving mass.
 #[derive(Debug)]
-pub struct Actuators<PumpMotor, AxialMotor, RotationMotor, Pin> {
-    pump: Pump<PumpMotor, Pin>,
-    axial: Axis<AxialMotor, Pin, Pin>,
-    rotation: Axis<RotationMotor, Pin, Pin>,
+pub struct Actuators<Motor, Pin> {
+    pump: Pump<Motor, Pin>,
+    axial: Axis<Motor, Pin>,
+    rotation: Axis<Motor, Pin>,
     faults: [Option<Fault>; 3],
 }
 
-impl<PumpMotor, AxialMotor, RotationMotor, Pin> Actuators<PumpMotor, AxialMotor, RotationMotor, Pin>
-where
-    PumpMotor: SetDutyCycle,
-    AxialMotor: SetDutyCycle,
-    RotationMotor: SetDutyCycle,
-    Pin: OutputPin,
-{
+impl<Motor: SetDutyCycle, Pin: OutputPin> Actuators<Motor, Pin> {
     /// Takes the three drivers.
-    pub const fn new(
-        pump: Pump<PumpMotor, Pin>,
-        axial: Axis<AxialMotor, Pin, Pin>,
-        rotation: Axis<RotationMotor, Pin, Pin>,
-    ) -> Self {
+    pub const fn new(pump: Pump<Motor, Pin>, axial: Axis<Motor, Pin>, rotation: Axis<Motor, Pin>) -> Self {
         Self { pump, axial, rotation, faults: [None; 3] }
     }
 

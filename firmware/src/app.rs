@@ -45,8 +45,8 @@ pub trait Board: Stopwatch {
     fn order(&mut self, commands: &Commands);
     /// Stops and brakes everything.
     fn make_safe(&mut self);
-    /// Sleeps until the next interrupt, unless there is something on the link already.
-    fn sleep(&mut self);
+    /// Sleeps until the next interrupt, unless a beat after `beats_done` is due or there is something on the link.
+    fn sleep(&mut self, beats_done: u32);
 }
 
 /// The link is gone for good: its other end closed, or an error of the transport.
@@ -182,7 +182,7 @@ impl<Link: Read + ReadReady + Write, Devices: Board> App<'_, Link, Devices> {
                 self.board.make_safe();
                 return closed;
             }
-            self.board.sleep();
+            self.board.sleep(self.beats_done);
         }
     }
 

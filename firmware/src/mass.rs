@@ -41,18 +41,18 @@ impl AxisCalibration {
 
 /// Driver of one motor of the moving mass.
 #[derive(Debug)]
-pub struct Axis<Motor, Direction, Brake> {
+pub struct Axis<Motor, Pin> {
     motor: Motor,
-    direction: Direction,
-    brake: Brake,
+    direction: Pin,
+    brake: Pin,
     calibration: AxisCalibration,
     order: Order,
     position: i32,
 }
 
-impl<Motor: SetDutyCycle, Direction: OutputPin, Brake: OutputPin> Axis<Motor, Direction, Brake> {
+impl<Motor: SetDutyCycle, Pin: OutputPin> Axis<Motor, Pin> {
     /// Takes a motor's PWM, a direction (high is forward, or to the left) and a brake that is released by high.
-    pub const fn new(motor: Motor, direction: Direction, brake: Brake, calibration: AxisCalibration) -> Self {
+    pub const fn new(motor: Motor, direction: Pin, brake: Pin, calibration: AxisCalibration) -> Self {
         Self { motor, direction, brake, calibration, order: Order::STALE, position: 0 }
     }
 

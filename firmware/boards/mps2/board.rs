@@ -52,5 +52,5 @@ impl Board for Emulated {
 
     fn make_safe(&mut self) {}
 
-    fn sleep(&mut self) {}
+    fn sleep(&mut self, _: u32) {}
 }

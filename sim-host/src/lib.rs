@@ -6,9 +6,11 @@ pub mod flight;
 pub mod helix;
 #[cfg(unix)]
 pub mod link;
+pub mod mission_file;
 pub mod pilot;
 pub mod plant;
 pub mod real;
 pub mod table;
+pub mod toml_file;
 pub mod trim;
 pub mod vehicle;

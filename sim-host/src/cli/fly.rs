@@ -53,10 +53,26 @@ pub(super) fn run(args: &Args) -> Result<(), String> {
         progress.show(tick);
         if std::env::var_os("TRACE").is_some() && tick.tick % 20 == 0 {
             let e = crate::plant::euler_from_quaternion(&tick.state.quaternion).map(f64::to_degrees);
-            eprintln!("{:7.1} {:?} yo{} z {:6.2} n {:7.1} e {:7.1} V {:.3} roll {:6.2} pitch {:6.2} head {:6.2} | r {:.3} mu {:6.1} vbd {:7.1} | tp {} th {} dr {} {}",
-                tick.tick as f64 * 0.25, tick.commands.phase, tick.commands.yo, tick.state.position_m.z, tick.state.position_m.x, tick.state.position_m.y,
-                tick.state.velocity_m_s.norm(), e.x, e.y, e.z, tick.state.r_px_m, tick.state.mu_rad.to_degrees(), tick.measurements.vbd_ul as f64*1e-3,
-                tick.commands.target_pitch_cdeg, tick.commands.target_heading_cdeg, tick.commands.north_mm/1000, tick.commands.east_mm/1000);
+            eprintln!(
+                "{:7.1} {:?} yo{} z {:6.2} n {:7.1} e {:7.1} V {:.3} roll {:6.2} pitch {:6.2} head {:6.2} | r {:.3} mu {:6.1} vbd {:7.1} | tp {} th {} dr {} {}",
+                tick.tick as f64 * 0.25,
+                tick.commands.phase,
+                tick.commands.yo,
+                tick.state.position_m.z,
+                tick.state.position_m.x,
+                tick.state.position_m.y,
+                tick.state.velocity_m_s.norm(),
+                e.x,
+                e.y,
+                e.z,
+                tick.state.r_px_m,
+                tick.state.mu_rad.to_degrees(),
+                tick.measurements.vbd_ul as f64 * 1e-3,
+                tick.commands.target_pitch_cdeg,
+                tick.commands.target_heading_cdeg,
+                tick.commands.north_mm / 1000,
+                tick.commands.east_mm / 1000
+            );
         }
     })?;
     progress.finish();
@@ -71,7 +87,10 @@ fn table_name(args: &Args) -> String {
 fn describe_refusal(error: &ConfigurationError) -> String {
     match error {
         ConfigurationError::Mission(wrong) => {
-            format!("{} is {}; this vehicle and its trim table take {} to {}", wrong.field, wrong.value, wrong.min, wrong.max)
+            format!(
+                "{} is {}; this vehicle and its trim table take {} to {}",
+                wrong.field, wrong.value, wrong.min, wrong.max
+            )
         }
         ConfigurationError::Parameter(row, value) => {
             format!("parameter {} is {value}; it goes from {} to {}", row.name, row.min, row.max)

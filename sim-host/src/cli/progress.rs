@@ -22,7 +22,7 @@ impl Progress {
     }
 
     pub(super) fn show(&self, tick: &Tick<'_>) {
-        if tick.tick % EVERY_TICKS != 0 || self.bar.is_hidden() {
+        if !tick.tick.is_multiple_of(EVERY_TICKS) || self.bar.is_hidden() {
             return;
         }
         let minutes = f64::from(tick.tick) * TICK_S / 60.0;

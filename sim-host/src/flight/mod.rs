@@ -14,6 +14,7 @@ use shared::{
 };
 
 use crate::{
+    mission_file::Start,
     pilot::Pilot,
     plant::{Particle, Plant, State, quaternion_from_euler, rk4_step},
     vehicle::{Buoyancy, Energy, Limits, Vehicle},
@@ -30,17 +31,6 @@ const STEPS_PER_TICK: u32 = 2;
 const LINGER_S: u32 = 60;
 /// A flight that lasts longer than its mission allows, by this factor, will not come back.
 const PATIENCE: u32 = 2;
-
-/// Where and how a flight starts.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Start {
-    /// Latitude of the start, deg.
-    pub latitude_deg: f64,
-    /// Longitude of the start, deg.
-    pub longitude_deg: f64,
-    /// Heading at the start, deg.
-    pub heading_deg: f64,
-}
 
 /// What is shown of each tick: measurements and commands, and the truth behind them before the commands act.
 #[derive(Clone, Copy, Debug)]

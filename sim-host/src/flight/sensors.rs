@@ -6,8 +6,11 @@ use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;
 use shared::device::{Attitude, GpsFix, Measurements, TICK_HZ};
 
-use super::{FlyingVehicle, Start, actuators::Actuators};
-use crate::plant::{State, euler_from_quaternion, rotation_from_quaternion};
+use super::{FlyingVehicle, actuators::Actuators};
+use crate::{
+    mission_file::Start,
+    plant::{State, euler_from_quaternion, rotation_from_quaternion},
+};
 
 /// Pressure: noise of a 0.01 % sensor of 20 bar, Pa.
 const PRESSURE_NOISE_PA: f64 = 50.0;

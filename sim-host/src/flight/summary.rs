@@ -99,7 +99,7 @@ impl Log {
         self.ticks += 1;
         self.max_depth_m = self.max_depth_m.max(position.z);
         self.dived |= commands.phase == Phase::Dive;
-        self.fixed |= self.dived && tick.measurements.gps.is_some();
+        self.fixed |= is_over(commands.phase).is_some() && tick.measurements.gps.is_some();
         if self.dived && !self.fixed {
             let metres = |mm: i32| f64::from(mm) / f64::from(MM_PER_M);
             self.surfacing = Surfacing {

@@ -1,9 +1,14 @@
 //! A vehicle: what its file says, in SI units.
 
+mod file;
+mod geometry;
+mod hash;
+
 use nalgebra::{Matrix3, Vector3};
+use serde::Serialize;
 
 /// Everything known of a vehicle.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Vehicle {
     /// Its name.
     pub name: String,
@@ -34,7 +39,7 @@ pub struct Vehicle {
 }
 
 /// A slender body of revolution.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Hull {
     /// l, m.
     pub length_m: f64,
@@ -51,7 +56,7 @@ impl Hull {
 }
 
 /// The wing.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Wing {
     /// AR = b²/S.
     pub aspect_ratio: f64,
@@ -70,7 +75,7 @@ pub struct Wing {
 }
 
 /// The vertical fin.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Fin {
     /// S_v over the hull's frontal area πd²/4.
     pub area_ratio: f64,
@@ -85,7 +90,7 @@ pub struct Fin {
 }
 
 /// The rigid body without the moving mass.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Body {
     /// m_rb, kg.
     pub mass_kg: f64,
@@ -98,7 +103,7 @@ pub struct Body {
 }
 
 /// The moving mass: a particle that slides along the axis and swings about it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MovingMass {
     /// m_p, kg.
     pub mass_kg: f64,
@@ -117,7 +122,7 @@ pub struct MovingMass {
 }
 
 /// Added mass and inertia.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct AddedMass {
     /// M_f, kg.
     pub mass_kg: Matrix3<f64>,
@@ -128,7 +133,7 @@ pub struct AddedMass {
 }
 
 /// Frame in which the coefficients of moment are given.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum MomentFrame {
     /// Body axes (the paper's).
     Body,
@@ -137,7 +142,7 @@ pub enum MomentFrame {
 }
 
 /// Coefficients of section 4 of the equations, Nelson's signs: side force along b2 positive.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 #[allow(
     missing_docs,
     reason = "the field's own names: c_y_beta is the derivative of the side force's coefficient by beta"
@@ -168,7 +173,7 @@ pub struct Hydrodynamics {
 }
 
 /// The variable buoyancy device.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Buoyancy {
     /// Volume [min, max] beyond neutral in the static water, m³.
     pub volume_m3: [f64; 2],
@@ -185,7 +190,7 @@ pub struct Buoyancy {
 }
 
 /// Electrical loads.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Energy {
     /// Battery, J.
     pub battery_j: f64,
@@ -200,7 +205,7 @@ pub struct Energy {
 }
 
 /// How deep it may go.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Limits {
     /// Deepest planned depth, m.
     pub working_depth_m: f64,
@@ -209,7 +214,7 @@ pub struct Limits {
 }
 
 /// The water of the static analyses.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Water {
     /// ρ, kg/m³.
     pub density_kg_m3: f64,

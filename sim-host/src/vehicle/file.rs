@@ -1,0 +1,243 @@
+//! The vehicle file: TOML, SI units in the names.
+//!
+//! `[hydrodynamics]` may leave out `area_m2`, `span_m` and `chord_m` (then the wing's), `moment_frame` (then `"body"`) and
+//! the coefficients that symmetry makes small: `lift.zero`, `lift.q`, `pitch.zero`, `side.p`, `side.r`, `roll.r`, `yaw.p`
+//! (then 0). Every other coefficient must be there.
+
+use nalgebra::{Matrix3, Matrix6, Vector3};
+
+use super::{
+    AddedMass, Body, Buoyancy, Energy, Fin, Hull, Hydrodynamics, Limits, MomentFrame, MovingMass, Vehicle, Water, Wing,
+};
+use crate::toml_file::{self, FileError, Rule, Section};
+
+/// Vehicles that need no file: name, file it comes from, text.
+const EMBEDDED: &[(&str, &str, &str)] =
+    &[("slocum-paper", "vehicles/slocum-paper.toml", include_str!("../../vehicles/slocum-paper.toml"))];
+
+/// Longest name, in characters: it is carried in the trim table.
+const NAME_CHARS: usize = 32;
+/// Rounding that a symmetric or semi-definite matrix may show, relative to its largest entry.
+const MATRIX_ROUNDING: f64 = 1e-9;
+
+impl Vehicle {
+    /// Reads a vehicle from the text of its file; `source_name` stands in the errors.
+    ///
+    /// # Errors
+    /// The first mistake, with its place and what would be right.
+    pub fn from_toml(text: &str, source_name: &str) -> Result<Self, FileError> {
+        toml_file::read(text, source_name, vehicle)
+    }
+
+    /// Reads an embedded vehicle by its name, or else a file by its path.
+    ///
+    /// # Errors
+    /// As [`Vehicle::from_toml`], or one line that lists the embedded names.
+    pub fn load(name_or_path: &str) -> Result<Self, FileError> {
+        let (text, file) = toml_file::load(name_or_path, EMBEDDED)?;
+        Self::from_toml(&text, &file)
+    }
+}
+
+fn vehicle(file: &mut Section<'_>) -> Vehicle {
+    let hull = file.section("hull", hull);
+    let wing = file.section("wing", wing);
+    Vehicle {
+        name: file.text("name", NAME_CHARS),
+        nominal_speed_m_s: file.number("nominal_speed_m_s", Rule::Positive),
+        fin: file.section("fin", fin),
+        body: file.section("body", body),
+        moving_mass: file.section("moving_mass", moving_mass),
+        added_mass: given(file, "added_mass", added_mass),
+        hydrodynamics: given(file, "hydrodynamics", |section| hydrodynamics(section, &hull, &wing)),
+        buoyancy: file.optional_section("buoyancy", buoyancy),
+        energy: file.optional_section("energy", energy),
+        limits: file.optional_section("limits", limits),
+        water: file.section("water", water),
+        hull,
+        wing,
+    }
+}
+
+/// A section whose values could also come from the geometry, which this version does not do.
+fn given<T>(file: &mut Section<'_>, key: &'static str, build: impl FnOnce(&mut Section<'_>) -> T) -> T {
+    let missing = format!("section `{key}` must be given: this version does not derive it from the geometry");
+    file.section_or_else(key, missing, build)
+}
+
+fn hull(hull: &mut Section<'_>) -> Hull {
+    Hull { length_m: hull.number("length_m", Rule::Positive), fineness: hull.number("fineness", Rule::Above(1.0)) }
+}
+
+fn wing(wing: &mut Section<'_>) -> Wing {
+    Wing {
+        aspect_ratio: wing.number("aspect_ratio", Rule::Positive),
+        span_ratio: wing.number("span_ratio", Rule::Above(1.0)),
+        thickness_ratio: wing.number("thickness_ratio", Rule::Within(0.0, 1.0)),
+        position: wing.number("position", Rule::Within(-1.0, 1.0)),
+        sweep_deg: wing.number("sweep_deg", Rule::Within(-80.0, 80.0)),
+        dihedral_deg: wing.number("dihedral_deg", Rule::Within(-80.0, 80.0)),
+        height_m: wing.number("height_m", Rule::Finite),
+    }
+}
+
+fn fin(fin: &mut Section<'_>) -> Fin {
+    Fin {
+        area_ratio: fin.number("area_ratio", Rule::NotNegative),
+        position: fin.number("position", Rule::Within(-1.0, 1.0)),
+        aspect_ratio: fin.number("aspect_ratio", Rule::Positive),
+        thickness_ratio: fin.number("thickness_ratio", Rule::Within(0.0, 1.0)),
+        height_m: fin.number("height_m", Rule::Finite),
+    }
+}
+
+fn body(body: &mut Section<'_>) -> Body {
+    let read = Body {
+        mass_kg: body.number("mass_kg", Rule::Positive),
+        ballast_kg: body.number("ballast_kg", Rule::NotNegative),
+        centre_of_mass_m: Vector3::from(body.numbers("centre_of_mass_m", Rule::Finite)),
+        inertia_kg_m2: body.matrix("inertia_kg_m2"),
+    };
+    body.refuse_if(is_asymmetric(&read.inertia_kg_m2), "inertia_kg_m2", "symmetric");
+    let lever = read.centre_of_mass_m.cross_matrix();
+    let about_centre_of_mass = read.inertia_kg_m2 + lever * lever * read.mass_kg;
+    let right = "positive definite, also when taken about the centre of mass";
+    body.refuse_if(least_eigenvalue_3(&about_centre_of_mass) <= 0.0, "inertia_kg_m2", right);
+    read
+}
+
+fn moving_mass(mass: &mut Section<'_>) -> MovingMass {
+    MovingMass {
+        mass_kg: mass.number("mass_kg", Rule::Positive),
+        radius_m: mass.number("radius_m", Rule::Positive),
+        travel_m: mass.range("travel_m"),
+        rate_m_s: mass.number("rate_m_s", Rule::Positive),
+        roll_deg: mass.range("roll_deg"),
+        roll_rate_deg_s: mass.number("roll_rate_deg_s", Rule::Positive),
+        inertia_kg_m2: Vector3::from(mass.numbers_or("inertia_kg_m2", Rule::NotNegative, [0.0; 3])),
+    }
+}
+
+fn added_mass(added: &mut Section<'_>) -> AddedMass {
+    let read = AddedMass {
+        mass_kg: added.matrix("mass_kg"),
+        inertia_kg_m2: added.matrix("inertia_kg_m2"),
+        coupling_kg_m: added.matrix("coupling_kg_m"),
+    };
+    for (matrix, key) in [(&read.mass_kg, "mass_kg"), (&read.inertia_kg_m2, "inertia_kg_m2")] {
+        added.refuse_if(is_asymmetric(matrix), key, "symmetric");
+        let right = "without a negative eigenvalue";
+        added.refuse_if(least_eigenvalue_3(matrix) < -MATRIX_ROUNDING * matrix.amax(), key, right);
+    }
+    let mut whole = Matrix6::zeros();
+    whole.fixed_view_mut::<3, 3>(0, 0).copy_from(&read.mass_kg);
+    whole.fixed_view_mut::<3, 3>(3, 3).copy_from(&read.inertia_kg_m2);
+    whole.fixed_view_mut::<3, 3>(3, 0).copy_from(&read.coupling_kg_m);
+    whole.fixed_view_mut::<3, 3>(0, 3).copy_from(&read.coupling_kg_m.transpose());
+    let least = if is_finite(whole.as_slice()) { whole.symmetric_eigenvalues().min() } else { 0.0 };
+    let right = "small enough that the 6×6 added mass has no negative eigenvalue";
+    added.refuse_if(least < -MATRIX_ROUNDING * whole.amax(), "coupling_kg_m", right);
+    read
+}
+
+fn hydrodynamics(section: &mut Section<'_>, hull: &Hull, wing: &Wing) -> Hydrodynamics {
+    use Rule::{Finite, NotNegative, NotPositive, Positive};
+    let frames = [("body", MomentFrame::Body), ("current", MomentFrame::Current)];
+    let area_m2 = section.number_or("area_m2", Positive, wing.area_m2(hull));
+    let span_m = section.number_or("span_m", Positive, wing.span_m(hull));
+    let chord_m = section.number_or("chord_m", Positive, wing.chord_m(hull));
+    let moment_frame = section.choice_or_first("moment_frame", &frames).unwrap_or(MomentFrame::Body);
+    let [c_d_zero, c_d_induced] =
+        section.section("drag", |drag| [drag.number("zero", Positive), drag.number("induced", NotNegative)]);
+    let [c_l_zero, c_l_alpha, c_l_q] = section.section("lift", |lift| {
+        [lift.number_or("zero", Finite, 0.0), lift.number("alpha", Positive), lift.number_or("q", Finite, 0.0)]
+    });
+    let [c_y_beta, c_y_p, c_y_r] = section.section("side", |side| {
+        [side.number("beta", NotPositive), side.number_or("p", Finite, 0.0), side.number_or("r", Finite, 0.0)]
+    });
+    let [c_roll_beta, c_roll_p, c_roll_r] = section.section("roll", |roll| {
+        [roll.number("beta", Finite), roll.number("p", NotPositive), roll.number_or("r", Finite, 0.0)]
+    });
+    let [c_m_zero, c_m_alpha, c_m_q] = section.section("pitch", |pitch| {
+        [pitch.number_or("zero", Finite, 0.0), pitch.number("alpha", Finite), pitch.number("q", NotPositive)]
+    });
+    let [c_n_beta, c_n_p, c_n_r] = section.section("yaw", |yaw| {
+        [yaw.number("beta", Finite), yaw.number_or("p", Finite, 0.0), yaw.number("r", NotPositive)]
+    });
+    Hydrodynamics {
+        area_m2,
+        span_m,
+        chord_m,
+        moment_frame,
+        c_d_zero,
+        c_d_induced,
+        c_l_zero,
+        c_l_alpha,
+        c_l_q,
+        c_y_beta,
+        c_y_p,
+        c_y_r,
+        c_roll_beta,
+        c_roll_p,
+        c_roll_r,
+        c_m_zero,
+        c_m_alpha,
+        c_m_q,
+        c_n_beta,
+        c_n_p,
+        c_n_r,
+    }
+}
+
+fn buoyancy(buoyancy: &mut Section<'_>) -> Buoyancy {
+    let read = Buoyancy {
+        volume_m3: buoyancy.range("volume_m3"),
+        pump_rate_m3_s: buoyancy.number("pump_rate_m3_s", Rule::Positive),
+        bleed_rate_m3_s: buoyancy.number("bleed_rate_m3_s", Rule::Positive),
+        position_m: buoyancy.number("position_m", Rule::Finite),
+        efficiency: buoyancy.pairs("efficiency"),
+        idle_power_w: buoyancy.number("idle_power_w", Rule::NotNegative),
+    };
+    let rising = read.efficiency.is_sorted_by(|[below, _], [above, _]| below < above);
+    let possible = read.efficiency.iter().all(|[_, efficiency]| *efficiency > 0.0 && *efficiency <= 1.0);
+    let wrong = read.efficiency.is_empty() || !rising || !possible;
+    buoyancy.refuse_if(wrong, "efficiency", "rows of [pressure in Pa, rising; efficiency above 0, at most 1]");
+    read
+}
+
+fn energy(energy: &mut Section<'_>) -> Energy {
+    Energy {
+        battery_j: energy.number("battery_j", Rule::Positive),
+        battery_v: energy.number("battery_v", Rule::Positive),
+        hotel_w: energy.number("hotel_w", Rule::NotNegative),
+        pitch_motor_w: energy.number("pitch_motor_w", Rule::NotNegative),
+        roll_motor_w: energy.number("roll_motor_w", Rule::NotNegative),
+    }
+}
+
+fn limits(limits: &mut Section<'_>) -> Limits {
+    let working_depth_m = limits.number("working_depth_m", Rule::Positive);
+    let least = if working_depth_m.is_finite() { working_depth_m } else { 0.0 };
+    Limits { working_depth_m, crush_depth_m: limits.number("crush_depth_m", Rule::Above(least)) }
+}
+
+fn water(water: &mut Section<'_>) -> Water {
+    Water {
+        density_kg_m3: water.number("density_kg_m3", Rule::Positive),
+        gravity_m_s2: water.number("gravity_m_s2", Rule::Positive),
+    }
+}
+
+/// Whether a matrix is asymmetric; not one that could not be read.
+fn is_asymmetric(matrix: &Matrix3<f64>) -> bool {
+    (matrix - matrix.transpose()).amax() > MATRIX_ROUNDING * matrix.amax()
+}
+
+/// Least eigenvalue of a symmetric matrix; infinity for one that could not be read.
+fn least_eigenvalue_3(matrix: &Matrix3<f64>) -> f64 {
+    if is_finite(matrix.as_slice()) { matrix.symmetric_eigenvalues().min() } else { f64::INFINITY }
+}
+
+fn is_finite(entries: &[f64]) -> bool {
+    entries.iter().all(|entry| entry.is_finite())
+}

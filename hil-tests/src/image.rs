@@ -1,17 +1,25 @@
 //! Firmware images, built by a nested cargo.
 
 use std::{
-    fs,
     path::{Path, PathBuf},
     process::Command,
 };
 
-use object::{Object, ObjectSection, ObjectSymbol, SectionKind};
+use sim_host::link::Machine;
 
 /// Root of the workspace.
 #[must_use]
 pub fn root() -> &'static Path {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
+}
+
+/// The firmware's feature for a board.
+#[must_use]
+pub const fn feature(machine: Machine) -> &'static str {
+    match machine {
+        Machine::Mps2An386 => "mps2",
+        Machine::NetduinoPlus2 => "f405",
+    }
 }
 
 /// Builds one binary of the firmware for a board's feature; returns the image's path.

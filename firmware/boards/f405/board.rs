@@ -103,11 +103,7 @@ pub(crate) fn start() -> Option<Parts> {
     motors.1.enable();
     motors.2.enable();
     let drives = &table.vehicle().actuators;
-    let pump = Pump::new(
-        motors.0.erase(),
-        gpiob.pb1.into_push_pull_output().erase(),
-        PumpCalibration::nominal(drives),
-    );
+    let pump = Pump::new(motors.0.erase(), gpiob.pb1.into_push_pull_output().erase(), PumpCalibration::nominal(drives));
     let axial = Axis::new(
         motors.1.erase(),
         gpiob.pb12.into_push_pull_output().erase(),

@@ -25,6 +25,10 @@ fn main() -> ! {
 fn run() -> Option<()> {
     let parts = board::start()?;
     let mut app = App::start(parts.link, parts.board, parts.table).ok()?;
-    if app.is_simulation() { app.simulate() } else { app.fly() };
+    if app.is_simulation() {
+        app.simulate()
+    } else {
+        app.fly()
+    };
     Some(())
 }

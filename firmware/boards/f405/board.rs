@@ -66,21 +66,14 @@ pub(crate) fn sleep_unless(busy: impl Fn() -> bool) {
 
 /// The devices of the F405.
 pub(crate) struct F405 {
-    actuators: Actuators<ErasedChannel<TIM3>, AnyPin<Output>>,
+    pub(crate) actuators: Actuators<ErasedChannel<TIM3>, AnyPin<Output>>,
     converter: Converter,
     jumper: AnyPin<Input>,
     clocks_per_beat: u32,
 }
 
-/// Everything that the application needs.
-pub(crate) struct Parts {
-    pub(crate) board: F405,
-    pub(crate) link: Link,
-    pub(crate) table: TrimTable<'static>,
-}
-
 /// Starts clocks and devices, actuators stopped. `None`: called twice, no sound trim table, or a baud rate out of reach.
-pub(crate) fn start() -> Option<Parts> {
+pub(crate) fn start() -> Option<(F405, Link, TrimTable<'static>)> {
     let (core, device) = (cortex_m::Peripherals::take()?, Peripherals::take()?);
     let (mut rcc, crystal) = clock::start(device.RCC);
     let (gpioa, gpiob) = (device.GPIOA.split(&mut rcc), device.GPIOB.split(&mut rcc));
@@ -124,7 +117,7 @@ pub(crate) fn start() -> Option<Parts> {
         jumper: gpiob.pb5.into_pull_up_input().erase(),
         clocks_per_beat: start_beats(core.SYST, rcc.clocks.hclk().raw()),
     };
-    Some(Parts { board, link: Link::new(), table })
+    Some((board, Link::new(), table))
 }
 
 /// Starts SysTick at the drivers' rate; returns the counts of the core clock in a beat.

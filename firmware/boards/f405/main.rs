@@ -23,8 +23,8 @@ fn main() -> ! {
 
 /// Flies, or simulates, for as long as there is a link; `None` if that could not even begin.
 fn run() -> Option<()> {
-    let parts = board::start()?;
-    let mut app = App::start(parts.link, parts.board, parts.table).ok()?;
+    let (board, link, table) = board::start()?;
+    let mut app = App::start(link, board, table).ok()?;
     if app.is_simulation() {
         app.simulate()
     } else {

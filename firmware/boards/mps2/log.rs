@@ -2,11 +2,10 @@
 
 use core::{cell::Cell, panic::PanicInfo};
 
-use cortex_m_semihosting::debug::{EXIT_FAILURE, exit};
 use critical_section::Mutex;
 use embedded_io::Write;
 
-use crate::semihosting::HostFile;
+use crate::{semihosting::HostFile, start::end};
 
 #[path = "../logger.rs"]
 mod logger;
@@ -33,23 +32,17 @@ fn transmit(bytes: &[u8]) {
 #[panic_handler]
 fn panic(info: &PanicInfo<'_>) -> ! {
     defmt::error!("panic: {}", defmt::Debug2Format(info));
-    loop {
-        exit(EXIT_FAILURE);
-    }
+    end(false)
 }
 
 #[defmt::panic_handler]
 fn defmt_panic() -> ! {
-    loop {
-        exit(EXIT_FAILURE);
-    }
+    end(false)
 }
 
 #[allow(unsafe_code, reason = "cortex-m-rt asks for it, since the stack may be gone")]
 #[cortex_m_rt::exception]
 unsafe fn HardFault(_: &cortex_m_rt::ExceptionFrame) -> ! {
     defmt::error!("hard fault");
-    loop {
-        exit(EXIT_FAILURE);
-    }
+    end(false)
 }

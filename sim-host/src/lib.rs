@@ -4,6 +4,8 @@ pub mod cli;
 pub mod eval;
 pub mod flight;
 pub mod helix;
+#[cfg(unix)]
+pub mod link;
 pub mod mission_file;
 pub mod pilot;
 pub mod plant;

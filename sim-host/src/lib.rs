@@ -1,6 +1,7 @@
 //! The plant of an underwater glider, and everything that flies it on a host.
 
 pub mod cli;
+pub mod draw;
 pub mod eval;
 pub mod flight;
 pub mod helix;

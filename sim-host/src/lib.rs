@@ -1,6 +1,7 @@
 //! The plant of an underwater glider, and everything that flies it on a host.
 
 pub mod cli;
+pub mod draw;
 pub mod eval;
 pub mod flight;
 pub mod helix;
@@ -10,7 +11,9 @@ pub mod mission_file;
 pub mod pilot;
 pub mod plant;
 pub mod real;
+pub mod record;
 pub mod table;
 pub mod toml_file;
 pub mod trim;
 pub mod vehicle;
+pub mod whole_file;

@@ -1,6 +1,10 @@
 //! `glider fly`: a mission, controller in the loop.
 
-use std::path::PathBuf;
+use std::{
+    fs,
+    io::Write,
+    path::{Path, PathBuf},
+};
 
 use shared::{
     autopilot::{Autopilot, ConfigurationError},
@@ -9,9 +13,11 @@ use shared::{
 
 use super::progress::Progress;
 use crate::{
-    flight::{FlyingVehicle, fly},
+    flight::{FlyingVehicle, Summary, fly},
     mission_file::MissionFile,
+    record::{Record, Sample},
     table::{Envelope, describe, generate},
+    whole_file,
 };
 
 #[derive(Debug, clap::Args)]
@@ -41,59 +47,90 @@ pub(super) fn run(args: &Args) -> Result<(), String> {
     let vehicle = super::load_vehicle(args.vehicle.as_ref().unwrap_or(&file.vehicle))?;
     let flying = FlyingVehicle::new(&vehicle)?;
     let table_bytes = match &args.table {
-        Some(path) => std::fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?,
+        Some(path) => fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?,
         None => generate(&vehicle, &Envelope::default())?,
     };
     let table = TrimTable::parse(&table_bytes).and_then(|table| table.for_vehicle(vehicle.hash()));
     let table = table.map_err(|error| format!("{}: {}", table_name(args), describe(&error)))?;
     let mut autopilot = Autopilot::new(&table, &file.mission, &file.parameters)
         .map_err(|error| format!("{}: {}", args.mission, describe_refusal(&error)))?;
+    fs::create_dir_all(&args.out).map_err(|error| format!("{}: {error}", args.out.display()))?;
+
     let progress = Progress::new(&file.mission);
+    let mut record = Record { start: file.start, water: vehicle.water.clone(), samples: Vec::new() };
     let summary = fly(&flying, &file.mission, &file.start, args.seed, &mut autopilot, &mut |tick| {
         progress.show(tick);
-        if std::env::var_os("TRACE").is_some() && tick.tick % 20 == 0 {
-            let e = crate::plant::euler_from_quaternion(&tick.state.quaternion).map(f64::to_degrees);
-            eprintln!(
-                "{:7.1} {:?} yo{} z {:6.2} n {:7.1} e {:7.1} V {:.3} roll {:6.2} pitch {:6.2} head {:6.2} | r {:.3} mu {:6.1} vbd {:7.1} | tp {} th {} dr {} {}",
-                tick.tick as f64 * 0.25,
-                tick.commands.phase,
-                tick.commands.yo,
-                tick.state.position_m.z,
-                tick.state.position_m.x,
-                tick.state.position_m.y,
-                tick.state.velocity_m_s.norm(),
-                e.x,
-                e.y,
-                e.z,
-                tick.state.r_px_m,
-                tick.state.mu_rad.to_degrees(),
-                tick.measurements.vbd_ul as f64 * 1e-3,
-                tick.commands.target_pitch_cdeg,
-                tick.commands.target_heading_cdeg,
-                tick.commands.north_mm / 1000,
-                tick.commands.east_mm / 1000
-            );
-        }
+        record.samples.push(Sample::from(tick));
     })?;
     progress.finish();
-    super::print_json(&summary)
+
+    write_folder(&args.out, &record, &summary)?;
+    if args.json { super::print_json(&summary) } else { super::print(&describe_flight(args, &summary)) }
+}
+
+/// Record and summary of a flight, in one folder.
+fn write_folder(out: &Path, record: &Record, summary: &Summary) -> Result<(), String> {
+    record.write_csv(&out.join("record.csv"))?;
+    record.write_parquet(&out.join("record.parquet"))?;
+    whole_file::write(&out.join("summary.json"), |file| {
+        serde_json::to_writer_pretty(&mut *file, summary)?;
+        writeln!(file)
+    })
+}
+
+fn describe_flight(args: &Args, summary: &Summary) -> String {
+    let energy = &summary.energy_j;
+    let aborts = if summary.aborts.is_empty() { String::new() } else { format!(" ({})", summary.aborts.join(", ")) };
+    let mut lines = vec![
+        format!(
+            "{:?}{aborts} after {:.1} min, {:.1} m deep",
+            summary.outcome,
+            summary.duration_s / 60.0,
+            summary.max_depth_m
+        ),
+        format!(
+            "energy {:.1} kJ: pump {:.1}, pitch {:.2}, roll {:.2}, hotel {:.1}",
+            energy.total() / 1e3,
+            energy.pump / 1e3,
+            energy.pitch / 1e3,
+            energy.roll / 1e3,
+            energy.hotel / 1e3
+        ),
+    ];
+    if let (Some(predicted), Some(actual)) = (summary.surfacing.predicted, summary.surfacing.actual) {
+        let miss_m = (predicted.north_m - actual.north_m).hypot(predicted.east_m - actual.east_m);
+        let made_good_m = actual.north_m.hypot(actual.east_m);
+        lines.push(format!("surfaced {miss_m:.0} m from where it expected, {made_good_m:.0} m from its start"));
+    }
+    lines.push(format!("{:.0} times faster than real time; trace {}", summary.real_time_factor, summary.trace_hash));
+    lines.push(format!("report: {}", args.out.join("report.html").display()));
+    lines.join("\n")
 }
 
 fn table_name(args: &Args) -> String {
     args.table.as_ref().map_or_else(|| "trim table".into(), |path| path.display().to_string())
 }
 
-/// Why a mission cannot be flown, in one line.
+/// Why a mission cannot be flown, in one line and in the mission file's own names and units.
 fn describe_refusal(error: &ConfigurationError) -> String {
     match error {
         ConfigurationError::Mission(wrong) => {
-            format!(
-                "{} is {}; this vehicle and its trim table take {} to {}",
-                wrong.field, wrong.value, wrong.min, wrong.max
-            )
+            let (key, scale) = in_file(wrong.field);
+            let [value, min, max] = [wrong.value, wrong.min, wrong.max].map(|integer| f64::from(integer) / scale);
+            format!("`mission.{key}` is {value}; this vehicle and its trim table take {min} to {max}")
         }
         ConfigurationError::Parameter(row, value) => {
-            format!("parameter {} is {value}; it goes from {} to {}", row.name, row.min, row.max)
+            format!("`parameters.{}` is {value}; it goes from {} to {}", row.name, row.min, row.max)
         }
     }
+}
+
+/// Key of the mission file for a field of the mission, and how many of the field's units make one of the file's.
+fn in_file(field: &str) -> (String, f64) {
+    for (ours, theirs, scale) in [("_mm", "_m", 1e3), ("_cdeg", "_deg", 1e2), ("_g", "_kg", 1e3)] {
+        if let Some(stem) = field.strip_suffix(ours) {
+            return (format!("{stem}{theirs}"), scale);
+        }
+    }
+    (field.into(), 1.0)
 }

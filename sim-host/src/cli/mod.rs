@@ -6,9 +6,7 @@ mod table;
 mod trim;
 
 use std::{
-    fs,
     io::{self, Read, Write},
-    path::{Path, PathBuf},
     process::ExitCode,
 };
 
@@ -91,14 +89,4 @@ fn print(text: &str) -> Result<(), String> {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(format!("stdout: {error}")),
         Ok(()) | Err(_) => Ok(()),
     }
-}
-
-/// Writes a whole file or none: to a neighbour first, then renamed.
-fn write_file(path: &Path, bytes: &[u8]) -> Result<(), String> {
-    let mut neighbour = path.as_os_str().to_owned();
-    neighbour.push(".part");
-    let neighbour = PathBuf::from(neighbour);
-    fs::write(&neighbour, bytes)
-        .and_then(|()| fs::rename(&neighbour, path))
-        .map_err(|error| format!("{}: {error}", path.display()))
 }

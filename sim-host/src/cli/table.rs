@@ -1,11 +1,14 @@
 //! `glider table`: from a vehicle file to the table that the firmware embeds.
 
-use std::path::PathBuf;
+use std::{io::Write, path::PathBuf};
 
 use serde::Serialize;
 use shared::table::TrimTable;
 
-use crate::table::{Envelope, InterpolationError, TableErrors, describe, generate, measure};
+use crate::{
+    table::{Envelope, InterpolationError, TableErrors, describe, generate, measure},
+    whole_file,
+};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -50,7 +53,7 @@ pub(super) fn run(args: &Args) -> Result<(), String> {
     let file = generate(&vehicle, &envelope)?;
     let table = TrimTable::parse(&file).map_err(|error| describe(&error))?;
     let errors = measure(&vehicle, &table)?;
-    super::write_file(&args.output, &file)?;
+    whole_file::write(&args.output, |out| out.write_all(&file))?;
     if args.json {
         let vehicle_hash = format!("{:016x}", table.vehicle().hash);
         return super::print_json(&Answer { bytes: file.len(), vehicle_hash, interpolation_error: errors });

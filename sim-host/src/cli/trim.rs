@@ -1,10 +1,12 @@
 //! `glider trim` and `glider draw`: a wings-level glide in numbers, and in a picture.
 
-use std::path::PathBuf;
+use std::{io::Write, path::PathBuf};
 
 use crate::{
+    draw::{DrawnGlide, sheet},
     trim::{Condition, Glide, Scale, glide},
     vehicle::Vehicle,
+    whole_file,
 };
 
 /// Which glide, and how fast.
@@ -94,6 +96,12 @@ fn describe(vehicle: &Vehicle, glide: &Glide) -> String {
     .join("\n")
 }
 
-pub(super) fn draw(_args: &DrawArgs) -> Result<(), String> {
-    Err("draw: not merged yet".into())
+pub(super) fn draw(args: &DrawArgs) -> Result<(), String> {
+    let vehicle = super::load_vehicle(&args.vehicle)?;
+    let glide = args.glide.solve(&vehicle)?;
+    let sheet = sheet(&vehicle, &DrawnGlide::new(&vehicle, &glide));
+    match &args.output {
+        Some(path) => whole_file::write(path, |file| writeln!(file, "{sheet}")),
+        None => super::print(&sheet),
+    }
 }

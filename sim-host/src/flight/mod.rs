@@ -29,8 +29,8 @@ pub const TICK_S: f64 = 1.0 / TICK_HZ as f64;
 const STEPS_PER_TICK: u32 = 2;
 /// Time at the surface, mission over, for the position to be fixed, s.
 const LINGER_S: u32 = 60;
-/// A flight that lasts longer than its mission allows, by this factor, will not come back.
-const PATIENCE: u32 = 2;
+/// A vehicle that is not back this long after its mission's time is up counts as lost, s.
+const LOST_AFTER_S: u32 = 6 * 3600;
 
 /// What is shown of each tick: measurements and commands, and the truth behind them before the commands act.
 #[derive(Clone, Copy, Debug)]
@@ -94,7 +94,7 @@ pub fn fly(
     let mut sensors = Sensors::new(flying, start, seed);
     let mut actuators = Actuators::new(flying);
     let mut log = Log::new();
-    let last_tick = mission.max_duration_s.saturating_mul(TICK_HZ).saturating_mul(PATIENCE);
+    let last_tick = mission.max_duration_s.saturating_add(LOST_AFTER_S).saturating_mul(TICK_HZ);
     let mut outcome = Outcome::Lost;
     for tick in 0..=last_tick {
         let measurements = sensors.measure(&state, &actuators);

@@ -1,11 +1,11 @@
 //! Equations (1)–(8): the rates of a state.
 
-use nalgebra::{Matrix6, Vector3, Vector6};
+use nalgebra::{Matrix3, Vector3, Vector6};
 
 use super::{
     Plant, State,
     attitude::{quaternion_rate, rotation_from_quaternion},
-    inertia::{ParticleMotion, axis, stack},
+    inertia::{ParticlePlace, axis, stack},
     solve::Cholesky,
 };
 use crate::real::Real;
@@ -45,68 +45,84 @@ struct Balance<T: Real> {
     particle: [T; 2],
 }
 
+/// A particle held in one place, and the factored mass matrix that goes with it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Held<T: Real> {
+    place: ParticlePlace<T>,
+    matrix: Cholesky<T, 6>,
+}
+
 impl<T: Real> Plant<T> {
     /// Rates of a state with the particle free to move under its inputs: eight degrees of freedom.
     ///
     /// The result is a `State` whose every field is the time derivative of that field.
     #[must_use]
     pub fn derivative(&self, state: &State<T>, input: &Input<T>) -> State<T> {
-        let particle = self.particle_motion(state);
-        let balance = self.balance(state, &particle);
+        let place = self.particle_place(state.r_px_m, state.mu_rad);
+        let to_inertial = rotation_from_quaternion(&state.quaternion);
+        let balance = self.balance(state, &place, &to_inertial);
         let [axial, swing] = balance.particle;
         let (upper, lower) = halves(&balance.body);
         let rhs = stack(&upper, &lower, axial + input.u_px_n, swing + input.u_mu_nm);
         let acceleration = Cholesky::new(self.mass_matrix(state.r_px_m, state.mu_rad)).solve(rhs);
         let body = Vector6::from_fn(|i, _| acceleration[i]);
-        self.assemble(state, &body, [acceleration[6], acceleration[7]], input.u_b_m3_s)
+        assemble(state, &to_inertial, &body, [acceleration[6], acceleration[7]], input.u_b_m3_s)
     }
 
     /// Rates of a state whose particle keeps its present speed (a braked or self-locking drive): six degrees of freedom.
     #[must_use]
     pub fn derivative_driven(&self, state: &State<T>, u_b_m3_s: T) -> State<T> {
-        let particle = self.particle_motion(state);
-        let balance = self.balance(state, &particle);
-        let body = Cholesky::new(self.body_matrix(&particle)).solve(balance.body);
+        self.derivative_held(state, &self.held(state), u_b_m3_s)
+    }
+
+    /// The particle where it is.
+    pub(super) fn held(&self, state: &State<T>) -> Held<T> {
+        let place = self.particle_place(state.r_px_m, state.mu_rad);
+        Held { place, matrix: Cholesky::new(self.body_matrix(&place)) }
+    }
+
+    /// As [`Plant::derivative_driven`], with what the particle's place gives computed before.
+    pub(super) fn derivative_held(&self, state: &State<T>, held: &Held<T>, u_b_m3_s: T) -> State<T> {
+        let to_inertial = rotation_from_quaternion(&state.quaternion);
+        let balance = self.balance(state, &held.place, &to_inertial);
+        let body = held.matrix.solve(balance.body);
         let zero = T::constant(0.0);
-        self.assemble(state, &body, [zero, zero], u_b_m3_s)
+        assemble(state, &to_inertial, &body, [zero, zero], u_b_m3_s)
     }
 
     /// Force and moment that the drive must give for the particle to keep its present speed.
     #[must_use]
     pub fn reaction(&self, state: &State<T>) -> Reaction<T> {
-        let particle = self.particle_motion(state);
-        let balance = self.balance(state, &particle);
-        let body = Cholesky::new(self.body_matrix(&particle)).solve(balance.body);
-        let (linear, angular) = halves(&body);
+        let Held { place, matrix } = self.held(state);
+        let balance = self.balance(state, &place, &rotation_from_quaternion(&state.quaternion));
+        let (linear, angular) = halves(&matrix.solve(balance.body));
         let (m, e1) = (self.particle_kg, axis::<T>());
-        let axial = e1 * m;
-        let swing = particle.swing * m;
         let row = |direction: &Vector3<T>, spin: &Vector3<T>| {
-            direction.dot(&linear) + (particle.r.cross(direction) + spin).dot(&angular)
+            direction.dot(&linear) + (place.r.cross(direction) + spin).dot(&angular)
         };
         let none = Vector3::repeat(T::constant(0.0));
         Reaction {
-            u_px_n: row(&axial, &none) - balance.particle[0],
-            u_mu_nm: row(&swing, &(particle.inertia * e1)) - balance.particle[1],
+            u_px_n: row(&(e1 * m), &none) - balance.particle[0],
+            u_mu_nm: row(&(place.swing * m), &(place.inertia * e1)) - balance.particle[1],
         }
     }
 
     /// Resultant force and moment of the body's six equations, N and N m: zero in steady flight.
     #[must_use]
     pub fn body_residual(&self, state: &State<T>) -> Vector6<T> {
-        self.balance(state, &self.particle_motion(state)).body
+        let place = self.particle_place(state.r_px_m, state.mu_rad);
+        self.balance(state, &place, &rotation_from_quaternion(&state.quaternion)).body
     }
 
     /// The change of (v, ω) when the particle's speed jumps: momentum is kept.
     #[must_use]
     pub fn with_particle_rates(&self, state: &State<T>, r_px_rate_m_s: T, mu_rate_rad_s: T) -> State<T> {
-        let particle = self.particle_motion(state);
+        let Held { place, matrix } = self.held(state);
         let (m, e1) = (self.particle_kg, axis::<T>());
-        let jump = e1 * (r_px_rate_m_s - state.r_px_rate_m_s) + particle.swing * (mu_rate_rad_s - state.mu_rate_rad_s);
-        let linear = jump * m;
-        let angular = particle.r.cross(&linear) + particle.inertia * e1 * (mu_rate_rad_s - state.mu_rate_rad_s);
-        let change = Cholesky::new(self.body_matrix(&particle)).solve(join(&-linear, &-angular));
-        let (velocity, rate) = halves(&change);
+        let (axial, turn) = (r_px_rate_m_s - state.r_px_rate_m_s, mu_rate_rad_s - state.mu_rate_rad_s);
+        let linear = (e1 * axial + place.swing * turn) * m;
+        let angular = place.r.cross(&linear) + place.inertia * e1 * turn;
+        let (velocity, rate) = halves(&matrix.solve(join(&-linear, &-angular)));
         State {
             velocity_m_s: state.velocity_m_s + velocity,
             rate_rad_s: state.rate_rad_s + rate,
@@ -120,63 +136,59 @@ impl<T: Real> Plant<T> {
     #[must_use]
     pub fn potential_energy_j(&self, state: &State<T>) -> T {
         let down = rotation_from_quaternion(&state.quaternion).row(2).transpose();
-        let moment = self.body_moment_kg_m + self.particle_m(state.r_px_m, state.mu_rad) * self.particle_kg;
+        let moment = self.body_moment_kg_m + self.particle_place(state.r_px_m, state.mu_rad).r * self.particle_kg;
         let weight = self.net_mass_kg(state.displaced_volume_m3) * state.position_m.z;
         -(weight + down.dot(&moment)) * self.gravity_m_s2
     }
 
     /// Right-hand sides of (4)–(7), less Ṁ η, inputs left out.
-    fn balance(&self, state: &State<T>, particle: &ParticleMotion<T>) -> Balance<T> {
+    fn balance(&self, state: &State<T>, place: &ParticlePlace<T>, to_inertial: &Matrix3<T>) -> Balance<T> {
         let (v, w, e1) = (state.velocity_m_s, state.rate_rad_s, axis::<T>());
-        let (p, h) = self.body_momentum(state, particle);
-        let zeta = rotation_from_quaternion(&state.quaternion).row(2).transpose();
+        let motion = self.particle_motion(state, place);
+        let (p, h) = self.body_momentum(state, place, &motion);
+        let zeta = to_inertial.row(2).transpose();
         let gravity = zeta * self.gravity_m_s2;
         let viscous = self.viscous_in(state);
-        let moment = self.body_moment_kg_m + particle.r * self.particle_kg;
+        let moment = self.body_moment_kg_m + place.r * self.particle_kg;
 
         let force = p.cross(&w) + gravity * self.net_mass_kg(state.displaced_volume_m3) + viscous.force_n;
         let torque = h.cross(&w) + p.cross(&v) + moment.cross(&gravity) + viscous.moment_nm;
         let (lost_force, lost_torque) = self.emerged(state, &zeta);
-        let on_particle = particle.momentum.cross(&particle.rate) + gravity * self.particle_kg;
+        let on_particle = motion.momentum.cross(&motion.rate) + gravity * self.particle_kg;
 
         // Ṁ η: only the particle's part of M varies.
-        let turning = particle.rate.cross(&particle.r_rate) * self.particle_kg;
-        let spinning = (e1.cross(&particle.spin) - particle.inertia * e1.cross(&particle.rate)) * state.mu_rate_rad_s;
-        let varying = particle.r_rate.cross(&particle.momentum) + particle.r.cross(&turning) + spinning;
-        let swinging = e1.cross(&particle.r_rate).dot(&particle.momentum) + particle.swing.dot(&turning);
+        let turning = motion.rate.cross(&motion.r_rate) * self.particle_kg;
+        let spinning = (e1.cross(&motion.spin) - place.inertia * e1.cross(&motion.rate)) * state.mu_rate_rad_s;
+        let varying = motion.r_rate.cross(&motion.momentum) + place.r.cross(&turning) + spinning;
+        let swinging = e1.cross(&motion.r_rate).dot(&motion.momentum) + place.swing.dot(&turning);
         Balance {
             body: join(&(force + lost_force - turning), &(torque + lost_torque - varying)),
             particle: [
                 e1.dot(&on_particle) - e1.dot(&turning),
-                particle.swing.dot(&on_particle) + e1.dot(&particle.spin.cross(&w)) - swinging,
+                place.swing.dot(&on_particle) + e1.dot(&motion.spin.cross(&w)) - swinging,
             ],
         }
     }
+}
 
-    /// Upper left 6×6 block of M.
-    fn body_matrix(&self, particle: &ParticleMotion<T>) -> Matrix6<T> {
-        let (translation, coupling, rotation) = self.body_blocks(&particle.r, &particle.inertia);
-        let mut matrix = Matrix6::repeat(T::constant(0.0));
-        matrix.fixed_view_mut::<3, 3>(0, 0).copy_from(&translation);
-        matrix.fixed_view_mut::<3, 3>(3, 0).copy_from(&coupling);
-        matrix.fixed_view_mut::<3, 3>(0, 3).copy_from(&coupling.transpose());
-        matrix.fixed_view_mut::<3, 3>(3, 3).copy_from(&rotation);
-        matrix
-    }
-
-    fn assemble(&self, state: &State<T>, body: &Vector6<T>, particle: [T; 2], u_b_m3_s: T) -> State<T> {
-        let (velocity_m_s, rate_rad_s) = halves(body);
-        State {
-            position_m: rotation_from_quaternion(&state.quaternion) * state.velocity_m_s,
-            quaternion: quaternion_rate(&state.quaternion, &state.rate_rad_s),
-            velocity_m_s,
-            rate_rad_s,
-            r_px_m: state.r_px_rate_m_s,
-            r_px_rate_m_s: particle[0],
-            mu_rad: state.mu_rate_rad_s,
-            mu_rate_rad_s: particle[1],
-            displaced_volume_m3: u_b_m3_s,
-        }
+fn assemble<T: Real>(
+    state: &State<T>,
+    to_inertial: &Matrix3<T>,
+    body: &Vector6<T>,
+    particle: [T; 2],
+    u_b_m3_s: T,
+) -> State<T> {
+    let (velocity_m_s, rate_rad_s) = halves(body);
+    State {
+        position_m: to_inertial * state.velocity_m_s,
+        quaternion: quaternion_rate(&state.quaternion, &state.rate_rad_s),
+        velocity_m_s,
+        rate_rad_s,
+        r_px_m: state.r_px_rate_m_s,
+        r_px_rate_m_s: particle[0],
+        mu_rad: state.mu_rate_rad_s,
+        mu_rate_rad_s: particle[1],
+        displaced_volume_m3: u_b_m3_s,
     }
 }
 

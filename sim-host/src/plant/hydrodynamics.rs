@@ -7,24 +7,48 @@ use crate::{real::Real, vehicle::MomentFrame};
 
 /// Direction of the oncoming flow.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FlowAngles<T: Real> {
+pub struct Flow<T: Real> {
     /// V, m/s.
     pub speed_m_s: T,
     /// α = atan2(w, u), rad.
     pub alpha_rad: T,
     /// β = asin(v/V), rad.
     pub beta_rad: T,
+    /// Cosine and sine of α: from the velocity, since it has them already.
+    alpha_unit: (T, T),
+    /// Cosine and sine of β.
+    beta_unit: (T, T),
 }
 
-impl<T: Real> FlowAngles<T> {
-    /// Of a velocity in body axes; all zero at rest.
+impl<T: Real> Flow<T> {
+    /// Of a velocity in body axes; all angles zero at rest.
     #[must_use]
     pub fn new(velocity_m_s: &Vector3<T>) -> Self {
         let (u, v, w) = (velocity_m_s.x, velocity_m_s.y, velocity_m_s.z);
         let in_plane = T::hypot(u, w);
-        let zero = T::constant(0.0);
-        let angle = |y: T, x: T| if y.value() == 0.0 && x.value() == 0.0 { zero } else { y.atan2(x) };
-        Self { speed_m_s: T::hypot(in_plane, v), alpha_rad: angle(w, u), beta_rad: angle(v, in_plane) }
+        let speed_m_s = T::hypot(in_plane, v);
+        let (alpha_rad, alpha_unit) = direction(u, w, in_plane);
+        let (beta_rad, beta_unit) = direction(in_plane, v, speed_m_s);
+        Self { speed_m_s, alpha_rad, beta_rad, alpha_unit, beta_unit }
+    }
+
+    /// R_BC(α, β): a vector from the axes of the oncoming flow to body axes.
+    fn to_body(self, vector: &Vector3<T>) -> Vector3<T> {
+        let ((ca, sa), (cb, sb)) = (self.alpha_unit, self.beta_unit);
+        Vector3::new(
+            ca * cb * vector.x - ca * sb * vector.y - sa * vector.z,
+            sb * vector.x + cb * vector.y,
+            sa * cb * vector.x - sa * sb * vector.y + ca * vector.z,
+        )
+    }
+}
+
+/// Angle, and its cosine and sine, of the vector (x, y) of that length; zero and (1, 0) for no vector.
+fn direction<T: Real>(x: T, y: T, length: T) -> (T, (T, T)) {
+    if length.value() > 0.0 {
+        (y.atan2(x), (x / length, y / length))
+    } else {
+        (T::constant(0.0), (T::constant(1.0), T::constant(0.0)))
     }
 }
 
@@ -48,7 +72,7 @@ impl<T: Real> Plant<T> {
     #[must_use]
     pub fn viscous(&self, velocity_m_s: &Vector3<T>, rate_rad_s: &Vector3<T>) -> Viscous<T> {
         let c = &self.coefficients;
-        let flow = FlowAngles::new(velocity_m_s);
+        let flow = Flow::new(velocity_m_s);
         let (alpha, beta) = (flow.alpha_rad, flow.beta_rad);
         let per_speed = T::constant(0.5) / self.nominal_speed_m_s;
         let p = rate_rad_s.x * c.span_m * per_speed;
@@ -65,13 +89,12 @@ impl<T: Real> Plant<T> {
             Vector3::new(lateral(c.roll) * c.span_m, longitudinal(c.pitch) * c.chord_m, lateral(c.yaw) * c.span_m);
 
         let pressure_n = T::constant(0.5) * self.density_kg_m3 * flow.speed_m_s * flow.speed_m_s * c.area_m2;
-        let to_body = |vector: Vector3<T>| flow_to_body(&vector, alpha, beta);
         let moment = match c.moment_frame {
             MomentFrame::Body => moment,
-            MomentFrame::Current => to_body(moment),
+            MomentFrame::Current => flow.to_body(&moment),
         };
         Viscous {
-            force_n: to_body(in_flow_axes) * pressure_n,
+            force_n: flow.to_body(&in_flow_axes) * pressure_n,
             moment_nm: moment * pressure_n,
             lift_coefficient,
             drag_coefficient,
@@ -83,15 +106,4 @@ impl<T: Real> Plant<T> {
     pub fn viscous_in(&self, state: &State<T>) -> Viscous<T> {
         self.viscous(&state.velocity_m_s, &state.rate_rad_s)
     }
-}
-
-/// R_BC(α, β): from the axes of the oncoming flow to body axes.
-fn flow_to_body<T: Real>(vector: &Vector3<T>, alpha: T, beta: T) -> Vector3<T> {
-    let (sa, ca) = (alpha.sin(), alpha.cos());
-    let (sb, cb) = (beta.sin(), beta.cos());
-    Vector3::new(
-        ca * cb * vector.x - ca * sb * vector.y - sa * vector.z,
-        sb * vector.x + cb * vector.y,
-        sa * cb * vector.x - sa * sb * vector.y + ca * vector.z,
-    )
 }

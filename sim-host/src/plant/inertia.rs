@@ -1,6 +1,6 @@
 //! Appendix A: the mass matrix M(r_p) and the momenta.
 
-use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
+use nalgebra::{Matrix3, Matrix6, SMatrix, SVector, Vector3};
 
 use super::{Plant, State};
 use crate::real::Real;
@@ -10,22 +10,27 @@ pub type Matrix8<T> = SMatrix<T, 8, 8>;
 /// Momenta (p, h, p_px, h_px) or velocities η, in the same order.
 pub(super) type Vector8<T> = SVector<T, 8>;
 
-/// What the particle's place and motion give, computed once per evaluation.
+/// What the particle's place alone gives.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct ParticleMotion<T: Real> {
+pub(super) struct ParticlePlace<T: Real> {
     /// r_p, m.
     pub(super) r: Vector3<T>,
     /// ∂r_p/∂μ = e1 × r_p = R_p a_μ, m.
     pub(super) swing: Vector3<T>,
+    /// Inertia of the moving mass about its own centre, body axes, kg m².
+    pub(super) inertia: Matrix3<T>,
+}
+
+/// What its motion adds.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ParticleMotion<T: Real> {
     /// ω + μ̇ e1, rad/s.
     pub(super) rate: Vector3<T>,
     /// ṙ_p seen from the body, m/s.
     pub(super) r_rate: Vector3<T>,
     /// p_p = m_p v_p, kg m/s.
     pub(super) momentum: Vector3<T>,
-    /// Inertia of the moving mass about its own centre, body axes, kg m².
-    pub(super) inertia: Matrix3<T>,
-    /// Its angular momentum about its own centre, body axes, kg m²/s.
+    /// Angular momentum of the moving mass about its own centre, body axes, kg m²/s.
     pub(super) spin: Vector3<T>,
 }
 
@@ -33,16 +38,11 @@ impl<T: Real> Plant<T> {
     /// M(r_p), 8×8, symmetric and positive definite.
     #[must_use]
     pub fn mass_matrix(&self, r_px_m: T, mu_rad: T) -> Matrix8<T> {
-        let r = self.particle_m(r_px_m, mu_rad);
+        let place = self.particle_place(r_px_m, mu_rad);
+        let ParticlePlace { r, swing, inertia } = place;
         let (m, e1) = (self.particle_kg, axis());
-        let swing = e1.cross(&r);
-        let inertia = self.particle_inertia(mu_rad);
-        let (translation, coupling, rotation) = self.body_blocks(&r, &inertia);
         let mut matrix = Matrix8::repeat(T::constant(0.0));
-        matrix.fixed_view_mut::<3, 3>(0, 0).copy_from(&translation);
-        matrix.fixed_view_mut::<3, 3>(3, 0).copy_from(&coupling);
-        matrix.fixed_view_mut::<3, 3>(0, 3).copy_from(&coupling.transpose());
-        matrix.fixed_view_mut::<3, 3>(3, 3).copy_from(&rotation);
+        matrix.fixed_view_mut::<6, 6>(0, 0).copy_from(&self.body_matrix(&place));
         for (column, direction, spin) in [(6, e1, Vector3::repeat(T::constant(0.0))), (7, swing, inertia * e1)] {
             let linear = direction * m;
             let angular = r.cross(&linear) + spin;
@@ -56,24 +56,30 @@ impl<T: Real> Plant<T> {
         matrix
     }
 
-    /// The blocks of M's upper left 6×6: translation, coupling (row moment, column velocity), rotation.
-    pub(super) fn body_blocks(&self, r: &Vector3<T>, inertia: &Matrix3<T>) -> (Matrix3<T>, Matrix3<T>, Matrix3<T>) {
-        let hat = cross_matrix(r);
+    /// Upper left 6×6 block of M: what a body with a held particle resists with.
+    pub(super) fn body_matrix(&self, place: &ParticlePlace<T>) -> Matrix6<T> {
+        let hat = cross_matrix(&place.r);
         let m = self.particle_kg;
         let translation = self.fixed_mass_kg + Matrix3::from_diagonal(&Vector3::repeat(m));
         let coupling = self.fixed_coupling_kg_m + hat * m;
-        let rotation = self.fixed_inertia_kg_m2 + inertia - hat * hat * m;
-        (translation, coupling, rotation)
+        let rotation = self.fixed_inertia_kg_m2 + place.inertia - hat * hat * m;
+        let mut matrix = Matrix6::repeat(T::constant(0.0));
+        matrix.fixed_view_mut::<3, 3>(0, 0).copy_from(&translation);
+        matrix.fixed_view_mut::<3, 3>(3, 0).copy_from(&coupling);
+        matrix.fixed_view_mut::<3, 3>(0, 3).copy_from(&coupling.transpose());
+        matrix.fixed_view_mut::<3, 3>(3, 3).copy_from(&rotation);
+        matrix
     }
 
     /// Momenta (p, h, p_px, h_px) = M η.
     #[must_use]
     pub fn momentum(&self, state: &State<T>) -> SVector<T, 8> {
-        let particle = self.particle_motion(state);
-        let (p, h) = self.body_momentum(state, &particle);
+        let place = self.particle_place(state.r_px_m, state.mu_rad);
+        let motion = self.particle_motion(state, &place);
+        let (p, h) = self.body_momentum(state, &place, &motion);
         let e1 = axis();
-        let h_px = particle.swing.dot(&particle.momentum) + e1.dot(&particle.spin);
-        stack(&p, &h, e1.dot(&particle.momentum), h_px)
+        let h_px = place.swing.dot(&motion.momentum) + e1.dot(&motion.spin);
+        stack(&p, &h, e1.dot(&motion.momentum), h_px)
     }
 
     /// Kinetic energy ½ ηᵀ M η, J.
@@ -84,33 +90,49 @@ impl<T: Real> Plant<T> {
     }
 
     /// Linear and angular momentum (p, h) of the whole, about the body's origin.
-    pub(super) fn body_momentum(&self, state: &State<T>, particle: &ParticleMotion<T>) -> (Vector3<T>, Vector3<T>) {
+    pub(super) fn body_momentum(
+        &self,
+        state: &State<T>,
+        place: &ParticlePlace<T>,
+        motion: &ParticleMotion<T>,
+    ) -> (Vector3<T>, Vector3<T>) {
         let (v, w) = (state.velocity_m_s, state.rate_rad_s);
-        let p = self.fixed_mass_kg * v + self.fixed_coupling_kg_m.tr_mul(&w) + particle.momentum;
-        let h = self.fixed_coupling_kg_m * v
-            + self.fixed_inertia_kg_m2 * w
-            + particle.r.cross(&particle.momentum)
-            + particle.spin;
+        let p = self.fixed_mass_kg * v + self.fixed_coupling_kg_m.tr_mul(&w) + motion.momentum;
+        let h =
+            self.fixed_coupling_kg_m * v + self.fixed_inertia_kg_m2 * w + place.r.cross(&motion.momentum) + motion.spin;
         (p, h)
     }
 
-    pub(super) fn particle_motion(&self, state: &State<T>) -> ParticleMotion<T> {
+    pub(super) fn particle_place(&self, r_px_m: T, mu_rad: T) -> ParticlePlace<T> {
+        let (sin_mu, cos_mu) = (mu_rad.sin(), mu_rad.cos());
+        let r = Vector3::new(r_px_m, -self.particle_radius_m * sin_mu, self.particle_radius_m * cos_mu);
+        ParticlePlace { r, swing: axis().cross(&r), inertia: self.particle_inertia(sin_mu, cos_mu) }
+    }
+
+    pub(super) fn particle_motion(&self, state: &State<T>, place: &ParticlePlace<T>) -> ParticleMotion<T> {
         let e1 = axis();
-        let r = self.particle_m(state.r_px_m, state.mu_rad);
-        let swing = e1.cross(&r);
         let rate = state.rate_rad_s + e1 * state.mu_rate_rad_s;
-        let r_rate = e1 * state.r_px_rate_m_s + swing * state.mu_rate_rad_s;
-        let velocity = state.velocity_m_s + state.rate_rad_s.cross(&r) + r_rate;
-        let inertia = self.particle_inertia(state.mu_rad);
-        ParticleMotion { r, swing, rate, r_rate, momentum: velocity * self.particle_kg, inertia, spin: inertia * rate }
+        let r_rate = e1 * state.r_px_rate_m_s + place.swing * state.mu_rate_rad_s;
+        let velocity = state.velocity_m_s + state.rate_rad_s.cross(&place.r) + r_rate;
+        ParticleMotion { rate, r_rate, momentum: velocity * self.particle_kg, spin: place.inertia * rate }
     }
 
     /// R_BP diag(I) R_BPᵀ: the moving mass's own inertia turned with μ, body axes.
-    fn particle_inertia(&self, mu_rad: T) -> Matrix3<T> {
-        let (s, c) = (mu_rad.sin(), mu_rad.cos());
-        let (zero, one) = (T::constant(0.0), T::constant(1.0));
-        let to_body = Matrix3::new(one, zero, zero, zero, -s, -c, zero, c, -s);
-        to_body * Matrix3::from_diagonal(&self.particle_inertia_kg_m2) * to_body.transpose()
+    fn particle_inertia(&self, sin_mu: T, cos_mu: T) -> Matrix3<T> {
+        let (zero, own) = (T::constant(0.0), &self.particle_inertia_kg_m2);
+        let [s, c] = [sin_mu, cos_mu];
+        let across = (own.y - own.z) * s * c;
+        Matrix3::new(
+            own.x,
+            zero,
+            zero,
+            zero,
+            own.y * s * s + own.z * c * c,
+            -across,
+            zero,
+            -across,
+            own.y * c * c + own.z * s * s,
+        )
     }
 }
 

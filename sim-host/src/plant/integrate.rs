@@ -20,9 +20,13 @@ pub enum Particle<T: Real> {
 /// The state `dt_s` later.
 #[must_use]
 pub fn rk4_step<T: Real>(plant: &Plant<T>, state: &State<T>, particle: &Particle<T>, dt_s: T) -> State<T> {
-    let rate = |state: &State<T>| match particle {
-        Particle::Free(input) => plant.derivative(state, input),
-        Particle::Driven { u_b_m3_s } => plant.derivative_driven(state, *u_b_m3_s),
+    // A particle at rest stays where it is for the whole step.
+    let at_rest = state.r_px_rate_m_s.value() == 0.0 && state.mu_rate_rad_s.value() == 0.0;
+    let held = at_rest.then(|| plant.held(state));
+    let rate = |state: &State<T>| match (particle, &held) {
+        (Particle::Free(input), _) => plant.derivative(state, input),
+        (Particle::Driven { u_b_m3_s }, Some(held)) => plant.derivative_held(state, held, *u_b_m3_s),
+        (Particle::Driven { u_b_m3_s }, None) => plant.derivative_driven(state, *u_b_m3_s),
     };
     let half = dt_s * T::constant(0.5);
     let k1 = rate(state);

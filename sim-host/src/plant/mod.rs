@@ -14,7 +14,7 @@ mod surface;
 
 pub use attitude::{euler_from_quaternion, quaternion_from_euler, rotation_from_quaternion};
 pub use dynamics::{Input, Reaction};
-pub use hydrodynamics::{FlowAngles, Viscous};
+pub use hydrodynamics::{Flow, Viscous};
 pub use inertia::Matrix8;
 pub use integrate::{Particle, rk4_step};
 
@@ -169,11 +169,5 @@ impl<T: Real> Plant<T> {
     #[must_use]
     pub fn displaced_volume_m3(&self, net_mass_kg: T) -> T {
         (self.mass_kg - net_mass_kg) / self.density_kg_m3
-    }
-
-    /// r_p, m, body axes: (r_px, −R_p sin μ, R_p cos μ).
-    #[must_use]
-    pub fn particle_m(&self, r_px_m: T, mu_rad: T) -> Vector3<T> {
-        Vector3::new(r_px_m, -self.particle_radius_m * mu_rad.sin(), self.particle_radius_m * mu_rad.cos())
     }
 }

@@ -1,0 +1,125 @@
+//! The record of a flight: what was measured, what was commanded and what was true, tick by tick.
+
+mod columns;
+mod csv;
+mod parquet;
+
+use nalgebra::Vector3;
+use shared::device::{Commands, Measurements};
+
+pub use columns::{COLUMNS, Column, Value};
+
+use crate::{
+    flight::{EnergyUsed, TICK_S, Tick},
+    mission_file::Start,
+    plant::{euler_from_quaternion, rotation_from_quaternion},
+    vehicle::Water,
+};
+
+/// A flight, tick by tick, and what it takes to read it.
+#[derive(Clone, Debug)]
+pub struct Record {
+    /// Where it started: the origin of north and east.
+    pub start: Start,
+    /// The water in which pressure becomes depth.
+    pub water: Water,
+    /// One sample per tick.
+    pub samples: Vec<Sample>,
+}
+
+/// One tick: measurements, the commands they led to, and the truth before these commands act.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// Ticks since the start.
+    pub tick: u32,
+    /// What the controller was told.
+    pub measurements: Measurements,
+    /// What it answered.
+    pub commands: Commands,
+    /// What was.
+    pub truth: Truth,
+    /// Electrical energy used so far.
+    pub energy_j: EnergyUsed,
+}
+
+/// The state of the plant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Truth {
+    /// North, east and down of the start, m.
+    pub position_m: Vector3<f64>,
+    /// Roll, pitch and heading, rad.
+    pub euler_rad: Vector3<f64>,
+    /// Velocity over ground in body axes (forward, right, down), m/s.
+    pub velocity_m_s: Vector3<f64>,
+    /// Velocity over ground, north, east and down, m/s.
+    pub ground_velocity_m_s: Vector3<f64>,
+    /// Rates about the body's axes, rad/s.
+    pub rate_rad_s: Vector3<f64>,
+    /// Axial position of the moving mass, m.
+    pub r_px_m: f64,
+    /// Rotation of the moving mass, rad, positive to the left.
+    pub mu_rad: f64,
+    /// Displaced volume, m³.
+    pub displaced_volume_m3: f64,
+}
+
+impl Sample {
+    /// Time since the start, s.
+    #[must_use]
+    pub fn time_s(&self) -> f64 {
+        f64::from(self.tick) * TICK_S
+    }
+}
+
+impl Truth {
+    /// V, m/s.
+    #[must_use]
+    pub fn speed_m_s(&self) -> f64 {
+        self.velocity_m_s.norm()
+    }
+
+    /// α = atan2(w, u), rad.
+    #[must_use]
+    pub fn alpha_rad(&self) -> f64 {
+        self.velocity_m_s.z.atan2(self.velocity_m_s.x)
+    }
+
+    /// β = asin(v/V), rad; 0 at rest.
+    #[must_use]
+    pub fn beta_rad(&self) -> f64 {
+        ratio(self.velocity_m_s.y, self.speed_m_s()).asin()
+    }
+
+    /// γ, rad, climbing positive; 0 at rest.
+    #[must_use]
+    pub fn path_angle_rad(&self) -> f64 {
+        -ratio(self.ground_velocity_m_s.z, self.ground_velocity_m_s.norm()).asin()
+    }
+}
+
+/// A component over its vector's length, 0 for no vector.
+fn ratio(component: f64, length: f64) -> f64 {
+    if length > 0.0 { (component / length).clamp(-1.0, 1.0) } else { 0.0 }
+}
+
+impl From<&Tick<'_>> for Sample {
+    fn from(tick: &Tick<'_>) -> Self {
+        let state = tick.state;
+        Self {
+            tick: tick.tick,
+            measurements: *tick.measurements,
+            commands: *tick.commands,
+            truth: Truth {
+                position_m: state.position_m,
+                euler_rad: euler_from_quaternion(&state.quaternion),
+                velocity_m_s: state.velocity_m_s,
+                ground_velocity_m_s: rotation_from_quaternion(&state.quaternion) * state.velocity_m_s,
+                rate_rad_s: state.rate_rad_s,
+                r_px_m: state.r_px_m,
+                mu_rad: state.mu_rad,
+                displaced_volume_m3: state.displaced_volume_m3,
+            },
+            energy_j: *tick.energy,
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! A mission file's human units become the mission's integers; its mistakes are answered with one line.
+
+#![allow(clippy::unwrap_used, reason = "in a test a panic is the report")]
+
+use shared::{mission::Mission, parameters::Parameters};
+use sim_host::mission_file::{MissionFile, Start};
+
+const DEFAULT: &str = include_str!("../missions/default.toml");
+
+fn mistake(passage: &str, replacement: &str) -> String {
+    assert_eq!(DEFAULT.matches(passage).count(), 1, "`{passage}` must stand once");
+    MissionFile::from_toml(&DEFAULT.replace(passage, replacement), "m.toml").unwrap_err().to_string()
+}
+
+#[test]
+fn the_default_mission_is_two_yos_to_200_m_with_a_turn() {
+    let file = MissionFile::load("default").unwrap();
+    assert_eq!(file.vehicle, "slocum-paper");
+    assert_eq!(file.start, Start { latitude_deg: 59.0, longitude_deg: 5.0, heading_deg: 0.0 });
+    assert_eq!(file.parameters, Parameters::default());
+    let expected = Mission {
+        yos: 2,
+        dive_to_mm: 200_000,
+        climb_to_mm: 5_000,
+        dive_path_angle_cdeg: -2_600,
+        climb_path_angle_cdeg: 2_600,
+        dive_net_mass_g: 250,
+        climb_net_mass_g: -250,
+        headings_cdeg: [3_000, 6_000, 6_000, 6_000].into_iter().collect(),
+        surface_time_s: 60,
+        abort_depth_mm: 215_000,
+        max_duration_s: 10_800,
+    };
+    assert_eq!(file.mission, expected);
+}
+
+#[test]
+fn headings_wrap_into_one_turn() {
+    let text = DEFAULT.replace("[30, 60, 60, 60]", "[-10, 360, 359.999, 90.5]");
+    let headings = MissionFile::from_toml(&text, "m.toml").unwrap().mission.headings_cdeg;
+    assert_eq!(headings, [35_000, 0, 0, 9_050]);
+}
+
+#[test]
+fn parameters_override_their_defaults_within_bounds() {
+    let text = DEFAULT.to_owned() + "[parameters]\nmu_limit_cdeg = 3000\n";
+    let parameters = MissionFile::from_toml(&text, "m.toml").unwrap().parameters;
+    assert_eq!(parameters, Parameters { mu_limit_cdeg: 3_000, ..Parameters::default() });
+
+    let text = DEFAULT.to_owned() + "[parameters]\nmu_limit_cdeg = 99\n";
+    let line = MissionFile::from_toml(&text, "m.toml").unwrap_err().to_string();
+    assert_eq!(line, "m.toml:23:17: `parameters.mu_limit_cdeg` is 99, but must be a whole number from 100 to 9000");
+}
+
+#[test]
+fn mistakes_are_answered_with_their_place() {
+    let rows = [
+        ("yos = 2", "yoz = 2", "m.toml:11:1: unknown key `yoz`; did you mean `yos`?"),
+        ("heading_deg = 0", "heading = 0", "m.toml:8:1: unknown key `heading`; did you mean `heading_deg`?"),
+        ("vehicle =", "vehicel =", "m.toml:3:1: unknown key `vehicel`; did you mean `vehicle`?"),
+        ("yos = 2", "yos = 0", "m.toml:11:7: `mission.yos` is 0, but must be a whole number from 1 to 65535"),
+        ("yos = 2", "yos = 2.5", "m.toml:11:7: `mission.yos` is 2.5, but must be a whole number from 1 to 65535"),
+        ("yos = 2", "", "m.toml:10:1: missing key `mission.yos`: a whole number from 1 to 65535"),
+        (
+            "climb_to_m = 5",
+            "climb_to_m = 200",
+            "m.toml:13:14: `mission.climb_to_m` is 200, but must be less than `dive_to_m`",
+        ),
+        ("= 215", "= 199", "m.toml:20:17: `mission.abort_depth_m` is 199, but must be more than `dive_to_m`"),
+        ("= -26", "= 26", "m.toml:14:23: `mission.dive_path_angle_deg` is 26, but must be a number from -90 to 0"),
+        (
+            "[30, 60, 60, 60]",
+            "[]",
+            "m.toml:18:16: `mission.headings_deg` is [], but must be 1 to 32 numbers, each a number from -360 to 360",
+        ),
+        ("= 59.0", "= 95", "m.toml:6:16: `start.latitude_deg` is 95, but must be a number from -90 to 90"),
+    ];
+    for (passage, replacement, expected) in rows {
+        assert_eq!(mistake(passage, replacement), expected);
+    }
+}

@@ -23,6 +23,21 @@ fn images_are_whole_and_within_their_budget() {
     }
 }
 
+/// The linker drops what nobody calls: without a caller, the machinery of panics is not in the image at all.
+///
+/// This holds for the application and all that flies. The F405's image adds the start-up of its HAL, which can panic at
+/// settings other than ours.
+#[test]
+fn no_panic_is_left_in_the_application() {
+    let functions = image::functions(&image::build("mps2", "mps2"));
+    assert!(functions.iter().any(|name| name.contains("autopilot")), "no symbols to look at: {functions:?}");
+    let signs = ["panicking", "unwrap_failed", "expect_failed", "slice_index_fail"];
+    let left: Vec<_> = functions.iter().filter(|name| signs.iter().any(|sign| name.contains(sign))).collect();
+    assert!(left.is_empty(), "reachable panics: {left:#?}");
+    let drill = image::functions(&image::build("mps2", "mps2-drill"));
+    assert!(drill.iter().any(|name| name.contains("panicking")), "a panic would not be seen here");
+}
+
 /// Deepest stack of a dive: the lowest word that is no longer painted.
 #[test]
 fn the_stack_leaves_room() {

@@ -89,7 +89,7 @@ impl Mission {
             ("climb_net_mass_g", i32::from(self.climb_net_mass_g), climb.net_mass_g.min, climb.net_mass_g.max),
             ("abort_depth_mm", self.abort_depth_mm, self.dive_to_mm.saturating_add(1), i32::MAX),
             ("max_duration_s", i32::try_from(self.max_duration_s).unwrap_or(i32::MAX), 1, i32::MAX - 1),
-            ("headings_cdeg (count)", i32::try_from(self.headings_cdeg.len()).unwrap_or(i32::MAX), 1, 32),
+            ("number of headings", i32::try_from(self.headings_cdeg.len()).unwrap_or(i32::MAX), 1, 32),
         ];
         let headings = self.headings_cdeg.iter().map(|heading| ("headings_cdeg", i32::from(*heading), 0, 35_999));
         match rows.into_iter().chain(headings).find(|(_, value, min, max)| !(min..=max).contains(&value)) {

@@ -5,6 +5,8 @@ pub mod draw;
 pub mod eval;
 pub mod flight;
 pub mod helix;
+#[cfg(unix)]
+pub mod link;
 pub mod mission_file;
 pub mod pilot;
 pub mod plant;

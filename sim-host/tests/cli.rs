@@ -96,7 +96,7 @@ fn a_mission_beyond_the_vehicle_is_refused_before_anything_is_written() {
         let out = folder.join("dive");
         let line = refusal(&glider(&["fly", mission.to_str().unwrap(), "--out", out.to_str().unwrap()]));
         assert!(
-            line.contains("deep.toml: dive_to_mm is 210000; this vehicle and its trim table take 1000 to 200000"),
+            line.contains("deep.toml: `mission.dive_to_m` is 210; this vehicle and its trim table take 1 to 200"),
             "{line}"
         );
         assert!(!out.exists());

@@ -115,17 +115,26 @@ fn table_name(args: &Args) -> String {
     args.table.as_ref().map_or_else(|| "trim table".into(), |path| path.display().to_string())
 }
 
-/// Why a mission cannot be flown, in one line.
+/// Why a mission cannot be flown, in one line and in the mission file's own names and units.
 fn describe_refusal(error: &ConfigurationError) -> String {
     match error {
         ConfigurationError::Mission(wrong) => {
-            format!(
-                "{} is {}; this vehicle and its trim table take {} to {}",
-                wrong.field, wrong.value, wrong.min, wrong.max
-            )
+            let (key, scale) = in_file(wrong.field);
+            let [value, min, max] = [wrong.value, wrong.min, wrong.max].map(|integer| f64::from(integer) / scale);
+            format!("`mission.{key}` is {value}; this vehicle and its trim table take {min} to {max}")
         }
         ConfigurationError::Parameter(row, value) => {
-            format!("parameter {} is {value}; it goes from {} to {}", row.name, row.min, row.max)
+            format!("`parameters.{}` is {value}; it goes from {} to {}", row.name, row.min, row.max)
         }
     }
+}
+
+/// Key of the mission file for a field of the mission, and how many of the field's units make one of the file's.
+fn in_file(field: &str) -> (String, f64) {
+    for (ours, theirs, scale) in [("_mm", "_m", 1e3), ("_cdeg", "_deg", 1e2), ("_g", "_kg", 1e3)] {
+        if let Some(stem) = field.strip_suffix(ours) {
+            return (format!("{stem}{theirs}"), scale);
+        }
+    }
+    (field.into(), 1.0)
 }

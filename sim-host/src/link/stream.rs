@@ -1,0 +1,132 @@
+//! Messages over a pair of file descriptors: FIFOs, a socket, a serial port.
+
+use std::{
+    collections::VecDeque,
+    fs::File,
+    io::{ErrorKind, Read, Write},
+    os::{
+        fd::{AsFd, OwnedFd},
+        unix::net::UnixStream,
+    },
+    time::{Duration, Instant},
+};
+
+use nix::{
+    errno::Errno,
+    poll::{PollFd, PollFlags, PollTimeout, poll},
+};
+use shared::wire::{self, Auth, Damage, Decoder, Header, MAX_FRAME, Message};
+
+/// A link on which messages are sent and awaited.
+#[derive(Debug)]
+pub struct Stream {
+    from_firmware: File,
+    to_firmware: File,
+    decoder: Decoder,
+    arrived: VecDeque<Message>,
+    sequence: u32,
+}
+
+impl Stream {
+    /// Takes two files; the one that is read from must not block.
+    #[must_use]
+    pub fn new(from_firmware: File, to_firmware: File) -> Self {
+        Self { from_firmware, to_firmware, decoder: Decoder::default(), arrived: VecDeque::new(), sequence: 0 }
+    }
+
+    /// Takes a socket.
+    ///
+    /// # Errors
+    /// What the operating system says.
+    pub fn from_socket(socket: UnixStream) -> std::io::Result<Self> {
+        socket.set_nonblocking(true)?;
+        let to_firmware = socket.try_clone()?;
+        Ok(Self::new(OwnedFd::from(socket).into(), OwnedFd::from(to_firmware).into()))
+    }
+
+    /// Sends one message.
+    ///
+    /// # Errors
+    /// One line: too long, or the link is gone.
+    pub fn send(&mut self, message: &Message) -> Result<(), String> {
+        let header = Header { sequence: self.sequence, auth: Auth::None };
+        self.sequence = self.sequence.wrapping_add(1);
+        let mut buffer = [0; MAX_FRAME];
+        let frame = wire::encode(&header, message, &mut buffer).map_err(|_| "a message exceeds the link's frame")?;
+        self.send_bytes(frame)
+    }
+
+    /// Sends bytes as they are, damaged frames for instance.
+    ///
+    /// # Errors
+    /// One line: the link is gone.
+    pub fn send_bytes(&mut self, bytes: &[u8]) -> Result<(), String> {
+        self.to_firmware.write_all(bytes).map_err(|error| format!("the link to the firmware broke: {error}"))
+    }
+
+    /// Waits for the next whole message.
+    ///
+    /// # Errors
+    /// One line: nothing came in time, the link is gone, or a frame that no retry would make readable.
+    pub fn receive(&mut self, patience: Duration) -> Result<Message, String> {
+        let deadline = Instant::now() + patience;
+        loop {
+            if let Some(message) = self.arrived.pop_front() {
+                return Ok(message);
+            }
+            if !self.take_bytes()? {
+                self.wait(deadline, patience)?;
+            }
+        }
+    }
+
+    /// Takes what is there; tells whether anything was.
+    fn take_bytes(&mut self) -> Result<bool, String> {
+        let mut chunk = [0; MAX_FRAME];
+        let received = match self.from_firmware.read(&mut chunk) {
+            Ok(0) => return Ok(false), // A FIFO whose writer is gone or not there yet; `wait` knows which.
+            Ok(received) => received,
+            Err(error) if error.kind() == ErrorKind::WouldBlock => return Ok(false),
+            Err(error) => return Err(format!("the link to the firmware broke: {error}")),
+        };
+        for byte in &chunk[..received] {
+            match self.decoder.push(*byte) {
+                Some(Ok((_, message))) => self.arrived.push_back(message),
+                Some(Err(Damage::OtherSchema(theirs))) => {
+                    let ours = wire::schema();
+                    return Err(format!(
+                        "the firmware speaks schema {theirs:08x}, this host {ours:08x}: build both from the same sources"
+                    ));
+                }
+                // Counted by the decoder, and never acted on.
+                Some(Err(Damage::Overlong | Damage::Corrupt | Damage::Unknown)) | None => {}
+            }
+        }
+        Ok(true)
+    }
+
+    fn wait(&self, deadline: Instant, patience: Duration) -> Result<(), String> {
+        let left = deadline.saturating_duration_since(Instant::now());
+        let timeout = PollTimeout::try_from(left).unwrap_or(PollTimeout::MAX);
+        let mut descriptors = [PollFd::new(self.from_firmware.as_fd(), PollFlags::POLLIN)];
+        let outcome = poll(&mut descriptors, timeout);
+        let [descriptor] = descriptors;
+        let events = descriptor.revents().unwrap_or(PollFlags::empty());
+        match outcome {
+            Ok(0) if deadline <= Instant::now() => {
+                Err(format!("the firmware said nothing for {} s", patience.as_secs_f32()))
+            }
+            Ok(_) if events.contains(PollFlags::POLLHUP) && !events.contains(PollFlags::POLLIN) => {
+                Err("the firmware closed the link".into())
+            }
+            Ok(_) | Err(Errno::EINTR) => Ok(()),
+            Err(error) => Err(format!("the link to the firmware broke: {error}")),
+        }
+    }
+
+    /// Frames from the firmware that arrived damaged.
+    #[must_use]
+    pub const fn dropped(&self) -> u32 {
+        self.decoder.dropped
+    }
+}

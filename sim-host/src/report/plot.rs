@@ -17,6 +17,8 @@ const BOX: f64 = 1000.0;
 const BUCKETS: usize = 700;
 /// Room beyond the values, over their range.
 const ROOM: f64 = 0.06;
+/// Steps between marked directions, deg.
+const TURN_PARTS_DEG: [f64; 10] = [1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 90.0, 180.0, 360.0];
 
 /// A range of values with marks at round ones.
 #[derive(Clone, Debug)]
@@ -83,13 +85,9 @@ impl Axis {
     pub(super) fn exactly(min: f64, max: f64, count: f64) -> Self {
         let step = round_step((max - min) / count);
         let decimals = (-step.log10().floor()).max(0.0) as usize;
-        let first = (min / step - 1e-6).ceil() as i64;
-        let last = (max / step + 1e-6).floor() as i64;
-        let mark = |index: i64| {
-            let value = index as f64 * step;
-            (value, format!("{value:.decimals$}").replace('-', "−"))
-        };
-        Self { min, max, marks: (first..=last).map(mark).collect(), downwards: false }
+        let words = |value: f64| format!("{value:.decimals$}").replace('-', "−");
+        let marks = marks(min, max, step).map(|value| (value, words(value))).collect();
+        Self { min, max, marks, downwards: false }
     }
 
     /// The same, larger values lower.
@@ -97,12 +95,12 @@ impl Axis {
         Self { downwards: true, ..self }
     }
 
-    /// The same, for directions that were unwrapped: marks between 0 and 360.
-    pub(super) fn directions(mut self) -> Self {
-        for (value, words) in &mut self.marks {
-            *words = format!("{}", value.rem_euclid(360.0));
-        }
-        self
+    /// Like [`Axis::around`], for unwrapped directions in degrees: marks at parts of a turn, named 0 to 360.
+    pub(super) fn around_directions(values: impl Iterator<Item = f64>, least_width: f64, count: f64) -> Self {
+        let Self { min, max, .. } = Self::around(values, least_width, count);
+        let step = TURN_PARTS_DEG.into_iter().find(|step| *step >= (max - min) / count).unwrap_or(360.0);
+        let marks = marks(min, max, step).map(|value| (value, format!("{}", value.rem_euclid(360.0)))).collect();
+        Self { min, max, marks, downwards: false }
     }
 
     /// Where a value stands, 0 to 1 along the axis.
@@ -118,6 +116,12 @@ fn extent(values: impl Iterator<Item = f64>) -> (f64, f64) {
         .map(|value| (value, value))
         .reduce(|(min, max), (value, _)| (min.min(value), max.max(value)))
         .unwrap_or((0.0, 0.0))
+}
+
+/// The multiples of a step in a range.
+fn marks(min: f64, max: f64, step: f64) -> impl Iterator<Item = f64> {
+    let (first, last) = ((min / step - 1e-6).ceil() as i64, (max / step + 1e-6).floor() as i64);
+    (first..=last).map(move |index| index as f64 * step)
 }
 
 /// The 1, 2 or 5 times a power of ten nearest above a step; 1 for none.
@@ -252,8 +256,10 @@ mod tests {
         assert_eq!(words(&Axis::around([-23.0, 26.0].into_iter(), 1.0, 4.0)), ["−20", "0", "20"]);
         assert_eq!(words(&Axis::from_zero([0.73].into_iter(), 0.1, 4.0)), ["0.0", "0.2", "0.4", "0.6"]);
         assert_eq!(words(&Axis::exactly(0.0, 46.0, 10.0)), ["0", "5", "10", "15", "20", "25", "30", "35", "40", "45"]);
-        let north = Axis::around([349.0, 372.0].into_iter(), 1.0, 4.0).directions();
+        let north = Axis::around_directions([349.0, 372.0].into_iter(), 1.0, 4.0);
         assert_eq!(words(&north), ["350", "0", "10"]);
+        let turns = Axis::around_directions([-160.0, 200.0].into_iter(), 1.0, 4.0);
+        assert_eq!(words(&turns), ["180", "0", "180"]);
     }
 
     #[test]

@@ -102,16 +102,20 @@ impl<'a> Traces<'a> {
     pub(super) fn heading(&self) -> Trace {
         let mut measured = Curve { class: "measured", points: Vec::new() };
         let mut target = Curve { class: "target", points: Vec::new() };
-        for sample in &self.record.samples {
-            let before = measured.points.last().map_or(0.0, |[_, heading]| *heading);
-            if let Some(attitude) = sample.measurements.attitude {
-                measured.points.push([minutes(sample), nearest_turn(degrees(attitude.heading_cdeg), before)]);
+        let aimed = |s: &Sample| s.commands.target_heading_cdeg;
+        for leg in self.record.samples.chunk_by(|a, b| aimed(a) == aimed(b)) {
+            let mut flown = measured.points.last().map_or(0.0, |[_, heading]| *heading);
+            for sample in leg {
+                if let Some(attitude) = sample.measurements.attitude {
+                    flown = nearest_turn(degrees(attitude.heading_cdeg), flown);
+                    measured.points.push([minutes(sample), flown]);
+                }
             }
-            let flown = measured.points.last().map_or(0.0, |[_, heading]| *heading);
-            target.points.push([minutes(sample), nearest_turn(degrees(sample.commands.target_heading_cdeg), flown)]);
+            // A target stands on the turn on which it is reached.
+            target.points.extend(leg.iter().map(|s| [minutes(s), nearest_turn(degrees(aimed(s)), flown)]));
         }
-        let curves = vec![measured, broken_at_turns(target)];
-        let axis = Axis::around(values(&curves), 10.0, MARKS).directions();
+        let curves = vec![measured, target];
+        let axis = Axis::around_directions(values(&curves), 10.0, MARKS);
         let key = vec![("measured", "measured".into()), ("target", "target".into())];
         self.trace("Heading", "° from true north", key, axis, curves)
     }
@@ -271,20 +275,6 @@ fn nearest_turn(direction_deg: f64, other_deg: f64) -> f64 {
     direction_deg - 360.0 * ((direction_deg - other_deg) / 360.0).round()
 }
 
-/// A target may jump by a turn when the heading crosses its opposite: nothing is drawn in between.
-fn broken_at_turns(curve: Curve) -> Curve {
-    let mut points: Vec<[f64; 2]> = Vec::with_capacity(curve.points.len());
-    for point in curve.points {
-        if let Some(last) = points.last().copied()
-            && (point[1] - last[1]).abs() > 180.0
-        {
-            points.push([point[0], f64::NAN]);
-        }
-        points.push(point);
-    }
-    Curve { points, ..curve }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -294,12 +284,5 @@ mod tests {
         assert_eq!(nearest_turn(2.0, 358.0), 362.0);
         assert_eq!(nearest_turn(358.0, 362.0), 358.0);
         assert_eq!(nearest_turn(350.0, 3.0), -10.0);
-    }
-
-    #[test]
-    fn a_target_that_jumps_by_a_turn_is_not_joined() {
-        let curve = broken_at_turns(Curve { class: "target", points: vec![[0.0, 10.0], [1.0, 370.0]] });
-        assert_eq!(curve.points.len(), 3);
-        assert!(curve.points[1][1].is_nan());
     }
 }

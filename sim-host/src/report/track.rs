@@ -37,7 +37,10 @@ pub(super) struct TopView {
 pub(super) fn top(record: &Record, surfacing: &Surfacing) -> TopView {
     let truth = |s: &Sample| [s.truth.position_m.y, s.truth.position_m.x];
     let true_track = curve("true", record, truth);
-    let reckoned = curve("reckoned", record, |s| [metres(s.commands.east_mm), metres(s.commands.north_mm)]);
+    let reckoned = curve("reckoned", record, |s| match s.measurements.gps {
+        Some(_) => [f64::NAN; 2],
+        None => [metres(s.commands.east_mm), metres(s.commands.north_mm)],
+    });
     let curves = vec![true_track, reckoned];
     let [east, north] = [0, 1].map(|axis| extent(&curves, axis));
     let (shape, [east, north]) = shaped(east, north);

@@ -13,6 +13,7 @@ pub mod pilot;
 pub mod plant;
 pub mod real;
 pub mod record;
+pub mod report;
 pub mod table;
 pub mod toml_file;
 pub mod trim;

@@ -8,6 +8,7 @@ pub mod helix;
 #[cfg(unix)]
 pub mod link;
 pub mod mission_file;
+pub mod modes;
 pub mod pilot;
 pub mod plant;
 pub mod real;
@@ -16,5 +17,6 @@ pub mod report;
 pub mod table;
 pub mod toml_file;
 pub mod trim;
+pub mod turn;
 pub mod vehicle;
 pub mod whole_file;

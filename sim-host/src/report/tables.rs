@@ -26,7 +26,7 @@ pub(super) fn headline(flight: &Flight<'_>) -> Markup {
     ];
     html! {
         dl.headline {
-            div { dt { "Outcome" } dd.(outcome) { (outcome) @for abort in &summary.aborts { " · " (abort) } } }
+            div { dt { "Outcome" } dd.(outcome) { (outcome) @for abort in &summary.aborts { " " small { (spaced(abort)) } } } }
             @for (name, value) in &cards { div { dt { (name) } dd { (value) } } }
         }
     }
@@ -152,10 +152,32 @@ pub(super) fn duration(seconds: f64) -> String {
     }
 }
 
+/// The words of a name in CamelCase.
+fn spaced(name: &str) -> String {
+    let words = name.chars().enumerate().flat_map(|(index, letter)| {
+        let gap = (index > 0 && letter.is_uppercase()).then_some(' ');
+        gap.into_iter().chain(letter.to_lowercase())
+    });
+    words.collect()
+}
+
 fn optional<T>(value: Option<T>, words: impl Fn(T) -> String) -> String {
     value.map_or_else(|| "—".into(), words)
 }
 
 fn signed(value: f64, decimals: usize) -> String {
     format!("{value:+.decimals$}").replace('-', "−")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn durations_and_names_read_well() {
+        assert_eq!(duration(59.6), "1 min 00 s");
+        assert_eq!(duration(3_599.4), "59 min 59 s");
+        assert_eq!(duration(3_600.0), "1 h 00 min");
+        assert_eq!(spaced("MissionTimeout"), "mission timeout");
+    }
 }

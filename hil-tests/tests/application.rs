@@ -23,6 +23,7 @@ use shared::{
 struct World {
     to_firmware: VecDeque<u8>,
     from_firmware: VecDeque<u8>,
+    link_is_broken: bool,
     beats: u32,
     devices: Devices,
 }
@@ -46,6 +47,9 @@ impl Read for Bytes {
 
 impl ReadReady for Bytes {
     fn read_ready(&mut self) -> Result<bool, ErrorKind> {
+        if self.0.borrow().link_is_broken {
+            return Err(ErrorKind::BrokenPipe);
+        }
         Ok(!self.0.borrow().to_firmware.is_empty())
     }
 }
@@ -130,7 +134,8 @@ impl Desk {
         let devices = Devices::new(&table.vehicle().actuators);
         let drivers = devices.drivers();
         let (to_firmware, from_firmware) = (VecDeque::new(), VecDeque::new());
-        let world = Rc::new(RefCell::new(World { to_firmware, from_firmware, beats: 0, devices }));
+        let world =
+            Rc::new(RefCell::new(World { to_firmware, from_firmware, link_is_broken: false, beats: 0, devices }));
         let board = Simulated { world: Rc::clone(&world), drivers, jumper };
         let app = App::start(Bytes(Rc::clone(&world)), board, table).unwrap();
         let mut desk = Self { app, world, decoder: Decoder::default() };
@@ -153,7 +158,7 @@ impl Desk {
     fn fly(&mut self, beats: u32) {
         for _ in 0..beats {
             self.world.borrow_mut().beats += 1;
-            self.app.fly_round().unwrap();
+            self.app.fly_round();
             self.world.borrow_mut().devices.advance();
         }
     }
@@ -225,10 +230,21 @@ fn a_refused_mission_ends_the_one_under_way() {
 }
 
 #[test]
+fn a_link_that_breaks_ends_no_flight() {
+    let mut desk = Desk::start(false);
+    desk.say(&Message::Configure(Dive::standard().configuration()));
+    desk.fly(1);
+    desk.world.borrow_mut().link_is_broken = true;
+    desk.fly(120 * BEAT_HZ);
+    let devices = &desk.world.borrow().devices;
+    assert!(devices.piston.volume_ul > 0.9 * f64::from(devices.piston.calibration.travel_ul.max), "{devices:?}");
+}
+
+#[test]
 fn beats_that_were_slept_through_are_made_up_for() {
     let mut desk = Desk::start(false);
     desk.say(&Message::Configure(Dive::standard().configuration()));
     desk.world.borrow_mut().beats += 7;
-    desk.app.fly_round().unwrap();
+    desk.app.fly_round();
     assert!(!desk.world.borrow().devices.are_safe(), "the tick among them was flown");
 }

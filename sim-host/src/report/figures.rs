@@ -47,23 +47,26 @@ pub fn legs(record: &Record) -> Vec<Leg> {
         Phase::Climb | Phase::Crest | Phase::Surfacing => Some((sample.commands.yo, true)),
         Phase::Surface | Phase::Complete | Phase::Recovery => None,
     };
-    record
-        .samples
-        .chunk_by(|a, b| leg_of(a) == leg_of(b))
-        .filter_map(|samples| {
+    let chunks: Vec<&[Sample]> = record.samples.chunk_by(|a, b| leg_of(a) == leg_of(b)).collect();
+    let following = chunks.iter().skip(1).copied().chain([&[][..]]);
+    chunks
+        .iter()
+        .zip(following)
+        .filter_map(|(samples, next)| {
             let (yo, climbing) = leg_of(samples.first()?)?;
-            leg(yo, climbing, samples)
+            leg(yo, climbing, samples, next)
         })
         .collect()
 }
 
-fn leg(yo: u16, climbing: bool, samples: &[Sample]) -> Option<Leg> {
+/// One leg from its samples; it turns only in the `next` one's first seconds, since a vehicle does not stop at once.
+fn leg(yo: u16, climbing: bool, samples: &[Sample], next: &[Sample]) -> Option<Leg> {
     let (first, last) = (samples.first()?, samples.last()?);
     let duration_s = last.time_s() - first.time_s();
     if duration_s <= 0.0 {
         return None;
     }
-    let depths = samples.iter().map(|sample| sample.truth.position_m.z);
+    let depths = samples.iter().chain(next).map(|sample| sample.truth.position_m.z);
     let turning_depth_m = if climbing { depths.fold(f64::MAX, f64::min) } else { depths.fold(f64::MIN, f64::max) };
     let way_m: f64 =
         samples.windows(2).map(|pair| (pair[1].truth.position_m - pair[0].truth.position_m).xy().norm()).sum();

@@ -84,6 +84,8 @@ fn summary(record: &Record) -> Summary {
         max_depth_m: 40.0,
         ticks: 2_400,
         energy_j: record.samples.last().map_or_else(EnergyUsed::default, |last| last.energy_j),
+        pump_work_j: 0.0,
+        charge_c: 0.0,
         surfacing: Surfacing {
             predicted: Some(NorthEast { north_m: 3.0, east_m: 204.0 }),
             actual: Some(NorthEast { north_m: 0.0, east_m: 200.0 }),

@@ -1,10 +1,15 @@
 //! A closed-loop flight: plant, motors and sensors around whoever flies.
 
 mod actuators;
+mod battery;
+mod faults;
 mod sensors;
 mod summary;
 
 pub use actuators::EnergyUsed;
+pub use battery::Cells;
+pub use faults::{Dropout, Faults, Instrument, Seep};
+pub use sensors::{CompassErrors, PressureErrors, SensorErrors};
 pub use summary::{NorthEast, Outcome, Summary, Surfacing, TraceHash};
 
 use nalgebra::Vector3;
@@ -58,10 +63,16 @@ pub struct FlyingVehicle<'a> {
     pub energy: &'a Energy,
     /// Its limits.
     pub limits: &'a Limits,
+    /// How its battery gives way.
+    pub cells: Cells,
+    /// How large the errors of its instruments are.
+    pub sensor_errors: SensorErrors,
+    /// What goes wrong.
+    pub faults: Faults,
 }
 
 impl<'a> FlyingVehicle<'a> {
-    /// Checks that the vehicle file has the sections that flying needs.
+    /// Checks that the vehicle file has the sections that flying needs; sound devices with the usual errors.
     ///
     /// # Errors
     /// One line that names the missing section.
@@ -72,6 +83,9 @@ impl<'a> FlyingVehicle<'a> {
             buoyancy: vehicle.buoyancy.as_ref().ok_or_else(|| lacks("buoyancy"))?,
             energy: vehicle.energy.as_ref().ok_or_else(|| lacks("energy"))?,
             limits: vehicle.limits.as_ref().ok_or_else(|| lacks("limits"))?,
+            cells: Cells::default(),
+            sensor_errors: SensorErrors::default(),
+            faults: Faults::default(),
         })
     }
 }
@@ -112,7 +126,7 @@ pub fn fly(
         }
         state = actuators.advance(&plant, &state, &commands);
     }
-    Ok(log.summary(outcome, &actuators.used, began.elapsed().as_secs_f64()))
+    Ok(log.summary(outcome, &actuators, began.elapsed().as_secs_f64()))
 }
 
 /// Floating at the surface, as light as it gets, nose down.

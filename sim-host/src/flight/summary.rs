@@ -8,7 +8,7 @@ use shared::{
     supervisor::Abort,
 };
 
-use super::{EnergyUsed, LINGER_S, TICK_S, Tick, is_over};
+use super::{EnergyUsed, LINGER_S, TICK_S, Tick, actuators::Actuators, is_over};
 
 /// How a flight ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -53,6 +53,10 @@ pub struct Summary {
     pub ticks: u32,
     /// Electrical energy used, J.
     pub energy_j: EnergyUsed,
+    /// Ideal work p ΔV of the pump, J: over `energy_j.pump`, the efficiency of the buoyancy engine.
+    pub pump_work_j: f64,
+    /// Charge drawn from the battery, as a coulomb counter sees it, C.
+    pub charge_c: f64,
     /// Where it came up.
     pub surfacing: Surfacing,
     /// Reasons for which the mission ended early.
@@ -119,14 +123,16 @@ impl Log {
         (self.over_ticks >= LINGER_S * TICK_HZ).then_some(over)
     }
 
-    pub(super) fn summary(self, outcome: Outcome, used: &EnergyUsed, wall_s: f64) -> Summary {
+    pub(super) fn summary(self, outcome: Outcome, actuators: &Actuators<'_>, wall_s: f64) -> Summary {
         let duration_s = f64::from(self.ticks) * TICK_S;
         Summary {
             outcome,
             duration_s,
             max_depth_m: self.max_depth_m,
             ticks: self.ticks,
-            energy_j: *used,
+            energy_j: actuators.used,
+            pump_work_j: actuators.pump_work_j,
+            charge_c: actuators.battery.charge_c(),
             surfacing: self.surfacing,
             aborts: self.abort.iter().map(|abort| format!("{abort:?}")).collect(),
             wall_s,

@@ -166,6 +166,11 @@ impl Section<'_> {
         self.required(key, "rows of 2 finite numbers", rows).unwrap_or_default()
     }
 
+    /// Rows of two numbers that may be left out.
+    pub fn optional_pairs(&mut self, key: &'static str) -> Option<Vec<[f64; 2]>> {
+        self.has(key).then(|| self.pairs(key))
+    }
+
     /// Refuses the value of a key for what several values show together.
     pub fn refuse_if(&mut self, wrong: bool, key: &'static str, right: &str) {
         if wrong {

@@ -7,7 +7,8 @@
 use nalgebra::{Matrix3, Matrix6, Vector3};
 
 use super::{
-    AddedMass, Body, Buoyancy, Energy, Fin, Hull, Hydrodynamics, Limits, MomentFrame, MovingMass, Vehicle, Water, Wing,
+    AddedMass, Body, Buoyancy, Drive, Energy, Engine, Fin, Hull, Hydrodynamics, Limits, MomentFrame, MovingMass,
+    Vehicle, Water, Wing,
 };
 use crate::toml_file::{self, FileError, Rule, Section};
 
@@ -117,6 +118,7 @@ fn moving_mass(mass: &mut Section<'_>) -> MovingMass {
         roll_deg: mass.range("roll_deg"),
         roll_rate_deg_s: mass.number("roll_rate_deg_s", Rule::Positive),
         inertia_kg_m2: Vector3::from(mass.numbers_or("inertia_kg_m2", Rule::NotNegative, [0.0; 3])),
+        drive: Drive::read(mass),
     }
 }
 
@@ -192,13 +194,15 @@ fn hydrodynamics(section: &mut Section<'_>, hull: &Hull, wing: &Wing) -> Hydrody
 }
 
 fn buoyancy(buoyancy: &mut Section<'_>) -> Buoyancy {
+    let volume_m3 = buoyancy.range("volume_m3");
     let read = Buoyancy {
-        volume_m3: buoyancy.range("volume_m3"),
+        volume_m3,
         pump_rate_m3_s: buoyancy.number("pump_rate_m3_s", Rule::Positive),
         bleed_rate_m3_s: buoyancy.number("bleed_rate_m3_s", Rule::Positive),
         position_m: buoyancy.number("position_m", Rule::Finite),
         efficiency: buoyancy.pairs("efficiency"),
         idle_power_w: buoyancy.number("idle_power_w", Rule::NotNegative),
+        engine: Engine::read(buoyancy, volume_m3),
     };
     let rising = read.efficiency.is_sorted_by(|[below, _], [above, _]| below < above);
     let possible = read.efficiency.iter().all(|[_, efficiency]| *efficiency > 0.0 && *efficiency <= 1.0);

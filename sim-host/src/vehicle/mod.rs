@@ -1,8 +1,13 @@
 //! A vehicle: what its file says, in SI units.
 
+mod drive;
+mod engine;
 mod file;
 mod geometry;
 mod hash;
+
+pub use drive::{AxialDrive, Drive, RotationDrive};
+pub use engine::{Engine, EngineKind};
 
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
@@ -119,6 +124,8 @@ pub struct MovingMass {
     pub roll_rate_deg_s: f64,
     /// Inertia about its own centre, kg m², in the particle frame: turns with mu; zero for a particle.
     pub inertia_kg_m2: Vector3<f64>,
+    /// What drives it in flight.
+    pub drive: Drive,
 }
 
 /// Added mass and inertia.
@@ -187,6 +194,8 @@ pub struct Buoyancy {
     pub efficiency: Vec<[f64; 2]>,
     /// Electrical power of the pump that no pressure takes away (friction, electronics), W.
     pub idle_power_w: f64,
+    /// How it is built.
+    pub engine: Engine,
 }
 
 /// Electrical loads.

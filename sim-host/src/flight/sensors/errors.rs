@@ -1,0 +1,116 @@
+//! How large the errors of the instruments are: one place, so that a campaign can change them.
+//!
+//! A size is a standard deviation unless it says otherwise. What is drawn once per flight is called constant.
+
+/// Errors of all instruments.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SensorErrors {
+    /// Pressure sensor.
+    pub pressure: PressureErrors,
+    /// Tilt-compensated compass.
+    pub compass: CompassErrors,
+    /// Horizontal error of a position fix, per axis, m.
+    pub gps_noise_m: f64,
+    /// Time with the antenna clear until positions come, s.
+    pub gps_acquisition_s: f64,
+    /// Noise of the moving mass's potentiometers, over their travel.
+    pub pot_noise: f64,
+}
+
+/// Errors of the pressure sensor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PressureErrors {
+    /// Most that it shows, over the pressure at the vehicle's crush depth.
+    pub range_over_crush: f64,
+    /// Noise, Pa.
+    pub noise_pa: f64,
+    /// Constant error that zeroing at the surface does not see, Pa.
+    pub bias_pa: f64,
+    /// Constant rate of drift, Pa/h; zeroing at the surface takes away what has gathered.
+    pub drift_pa_h: f64,
+    /// Hysteresis, as creep: the part of a change of pressure that shows only later (a size, not a deviation).
+    pub creep: f64,
+    /// Time in which it shows, s.
+    pub creep_s: f64,
+    /// Time constant of zeroing while the antenna is clear, s.
+    pub zeroing_s: f64,
+}
+
+/// Errors of the attitude and heading reference.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CompassErrors {
+    /// Noise of pitch and roll, deg.
+    pub tilt_noise_deg: f64,
+    /// Noise of heading, deg.
+    pub heading_noise_deg: f64,
+    /// Noise of rates, deg/s.
+    pub rate_noise_deg_s: f64,
+    /// Constant errors of pitch and roll (mounting), deg.
+    pub tilt_bias_deg: f64,
+    /// Constant error of heading (mounting, declination), deg.
+    pub heading_bias_deg: f64,
+    /// Time constant of its filter for pitch, roll and heading, s (a size, not a deviation).
+    pub lag_s: f64,
+    /// Horizontal part of the Earth's field, µT.
+    pub earth_ut: f64,
+    /// Field of the moving battery that calibration left, per metre of its way from the centre, each axis constant, µT/m.
+    pub battery_ut_m: f64,
+    /// The same for its rotation: what turns with it, µT.
+    pub battery_roll_ut: f64,
+    /// Field that grows with depth, each axis constant, µT/km.
+    pub depth_ut_km: f64,
+}
+
+impl Default for SensorErrors {
+    /// Chosen within what receivers and 12-bit potentiometers do, whose step is the larger error.
+    fn default() -> Self {
+        Self {
+            pressure: PressureErrors::default(),
+            compass: CompassErrors::default(),
+            gps_noise_m: 3.0,
+            gps_acquisition_s: 20.0,
+            pot_noise: 0.0,
+        }
+    }
+}
+
+impl Default for PressureErrors {
+    /// Noise is that of a 0.01 % sensor of 20 bar; all else chosen.
+    fn default() -> Self {
+        Self {
+            range_over_crush: 1.25,
+            noise_pa: 50.0,
+            bias_pa: 100.0,
+            drift_pa_h: 50.0,
+            creep: 2e-4,
+            creep_s: 600.0,
+            zeroing_s: 10.0,
+        }
+    }
+}
+
+impl Default for CompassErrors {
+    /// A compass calibrated with the battery moving, in the field of the northern North Sea: some 0.5° remain. Chosen.
+    fn default() -> Self {
+        Self {
+            tilt_noise_deg: 0.15,
+            heading_noise_deg: 0.5,
+            rate_noise_deg_s: 0.1,
+            tilt_bias_deg: 0.3,
+            heading_bias_deg: 0.7,
+            lag_s: 0.3,
+            earth_ut: 15.0,
+            battery_ut_m: 0.3,
+            battery_roll_ut: 0.1,
+            depth_ut_km: 0.3,
+        }
+    }
+}
+
+impl CompassErrors {
+    /// A compass that was never calibrated against the moving battery: tens of degrees that change with depth, as in the field.
+    #[must_use]
+    pub fn uncalibrated() -> Self {
+        Self { battery_ut_m: 15.0, battery_roll_ut: 3.0, depth_ut_km: 5.0, ..Self::default() }
+    }
+}

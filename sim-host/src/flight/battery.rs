@@ -20,9 +20,9 @@ pub struct Cells {
 }
 
 impl Default for Cells {
-    /// Chosen: 15 V alkaline packs fall to 10 V, the fielded abort, shortly before they are empty; 0.3 Ω for packs in parallel.
+    /// Chosen: a pack of 15 V falls to 10.5 V, half a volt above the fielded abort, when it is empty; many strings in parallel.
     fn default() -> Self {
-        Self { resistance_ohm: 0.3, droop: 0.3 }
+        Self { resistance_ohm: 0.03, droop: 0.3 }
     }
 }
 

@@ -1,4 +1,7 @@
 //! The drives of the moving mass: what its file says beyond travel and rates.
+//!
+//! Optional in `[moving_mass]`: `drive` (`"kinematic"`, the default, or `"dynamic"`, then with the sections `axial` and `rotation`,
+//! whose every key may be left out).
 
 use serde::Serialize;
 

@@ -1,4 +1,7 @@
 //! How a buoyancy engine is built: what its file says beyond range, rates and efficiency, and what follows at a pressure.
+//!
+//! Optional keys of `[buoyancy]`: `kind` (`"piston"`, the default, with `dead_zone_m3`; or `"bladder"`, with `vacuum_pa` and
+//! `full_bleed_head_pa`), `pump_rate_at`, `pump_power_at`, `bleed_power_w`, `pot_step_m3`, `pot_noise_m3`.
 
 use serde::Serialize;
 
@@ -39,7 +42,7 @@ pub enum EngineKind {
     },
     /// Oil is pumped into an outer bladder, and comes back through a valve by the pressure difference alone.
     Bladder {
-        /// Air pressure outside less the pressure in the hull, Pa: all that brings the oil in at the surface.
+        /// Air pressure outside less the pressure in the hull, Pa: all that brings the oil in at the surface. Negative: lost.
         vacuum_pa: f64,
         /// Pressure difference from which on the valve passes `bleed_rate_m3_s`; below, flow goes with its square root.
         full_bleed_head_pa: f64,
@@ -53,7 +56,7 @@ impl Engine {
             EngineKind::Piston { dead_zone_m3: buoyancy.number_or("dead_zone_m3", Rule::NotNegative, 0.0) }
         } else {
             EngineKind::Bladder {
-                vacuum_pa: buoyancy.number_or("vacuum_pa", Rule::Within(0.0, 1e5), VACUUM_PA),
+                vacuum_pa: buoyancy.number_or("vacuum_pa", Rule::Within(-1e5, 1e5), VACUUM_PA),
                 full_bleed_head_pa: buoyancy.number_or("full_bleed_head_pa", Rule::Positive, FULL_BLEED_HEAD_PA),
             }
         };

@@ -16,9 +16,12 @@
 //! | rest, reversed and lateral flow, tenfold added mass: finite, energy balances | `tests/conservation.rs` | 1e-6 relative: Simpson's rule |
 //! | six and eight degrees of freedom agree under the drive's reaction | `tests/plant.rs` | 1e-11: rounding of an 8×8 solve |
 //! | a drive that starts keeps the momentum | `tests/plant.rs` | 1e-12: rounding |
+//! | a dive under motors, eight degrees of freedom, as with the kinematic drive | `tests/mass_drive.rs` | 5e-4 of the way: lag of a sub-step |
+//! | end stops and brakes hold, moves cost what fielded ones cost | `tests/mass_drive.rs` | half a sub-step's way; 2 to 5 and 2 to 6 J |
 //! | fourth order on a whole dive and climb | `tests/integration.rs` | observed order 3.7 to 4.5; 0.8 mm at the flight's step |
 //! | an adaptive eighth-order integrator of a library | `tests/integration.rs` | 1e-8 |
 //! | the paper's trim, Tables 1 and 2, eqs (14)–(16) = 3×3 system = exact helix | `tests/trim.rs`, `tests/stability.rs` | printed digits; 1e-9 |
+//! | electrical energy of the pump over p ΔV | `tests/devices.rs` | fielded efficiencies; 1e-9 for p ΔV itself |
 //! | Seawing's published spiral | `tests/seawing.rs` | 2 %: published digits, another drag law |
 
 pub mod cli;

@@ -122,3 +122,49 @@ fn place(state: &State<f64>) -> [f64; 2] {
 fn speed(state: &State<f64>) -> [f64; 2] {
     [state.r_px_rate_m_s, state.mu_rate_rad_s]
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Vector3;
+
+    use super::*;
+    use crate::{
+        plant::quaternion_from_euler,
+        vehicle::{AxialDrive, RotationDrive, Vehicle},
+    };
+
+    /// Whether brakes of these ratings keep the mass of this state where it is.
+    fn stays(state: &State<f64>, brake_n: f64, brake_nm: f64) -> bool {
+        let mut vehicle = Vehicle::load("slocum-paper").unwrap();
+        vehicle.moving_mass.drive = Drive::Dynamic {
+            axial: AxialDrive { brake_n, ..AxialDrive::default() },
+            rotation: RotationDrive { brake_nm, ..RotationDrive::default() },
+        };
+        let plant = Plant::<f64>::new(&vehicle);
+        let mut drive = MassDrive::new(&vehicle.moving_mass).unwrap();
+        drive.advance(&plant, state, [0.0; 2], 0.0).is_none_or(|moved| place(&moved.state) == place(state))
+    }
+
+    #[test]
+    fn a_brake_holds_any_load_up_to_its_rating_and_none_beyond() {
+        let plant = Plant::<f64>::new(&Vehicle::load("slocum-paper").unwrap());
+        for (roll, pitch, mu, turn) in
+            [(0.0, 1.5, 0.0, 0.0), (3.0, -0.4, 0.9, 0.5), (-1.4, 0.2, -1.0, -2.0), (0.3, -1.0, 0.5, 1.0)]
+        {
+            let state = State {
+                quaternion: quaternion_from_euler(&Vector3::new(roll, pitch, 0.0)),
+                velocity_m_s: Vector3::new(0.5, 0.1, -0.2),
+                rate_rad_s: Vector3::new(0.3, -0.2, turn),
+                r_px_m: 0.1,
+                mu_rad: mu,
+                ..State::at_rest(plant.displaced_volume_m3(0.2))
+            };
+            let load = plant.reaction(&state);
+            let (force, moment) = (load.u_px_n.abs(), load.u_mu_nm.abs());
+            // What is needed changes within a tick; the rating is compared at its beginning.
+            assert!(stays(&state, 1.001 * force, 1.001 * moment), "{force} N, {moment} N m");
+            assert!(!stays(&state, 0.8 * force, 1.001 * moment), "{force} N");
+            assert!(moment < 0.1 || !stays(&state, 1.001 * force, 0.8 * moment), "{moment} N m");
+        }
+    }
+}

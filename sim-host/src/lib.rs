@@ -8,6 +8,7 @@ pub mod helix;
 #[cfg(unix)]
 pub mod link;
 pub mod mission_file;
+pub mod ocean;
 pub mod pilot;
 pub mod plant;
 pub mod real;

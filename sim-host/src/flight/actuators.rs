@@ -2,8 +2,9 @@
 
 use shared::device::{Commands, RAD_PER_CDEG, UL_PER_M3, UM_PER_M};
 
-use super::{FlyingVehicle, STEPS_PER_TICK, TICK_S};
+use super::{FlyingVehicle, STEP_S, STEPS_PER_TICK, TICK_S};
 use crate::{
+    ocean::{Ocean, Sample},
     plant::{Particle, Plant, State, rk4_step},
     vehicle::Buoyancy,
 };
@@ -45,12 +46,9 @@ struct Rates {
 }
 
 impl<'a> Actuators<'a> {
-    pub(super) fn new(flying: &FlyingVehicle<'a>) -> Self {
-        Self {
-            flying: flying.clone(),
-            neutral_volume_m3: flying.vehicle.neutral_volume_m3(),
-            used: EnergyUsed::default(),
-        }
+    /// Of a vehicle whose displaced volume is this when the buoyancy device stands at zero.
+    pub(super) fn new(flying: &FlyingVehicle<'a>, neutral_volume_m3: f64) -> Self {
+        Self { flying: flying.clone(), neutral_volume_m3, used: EnergyUsed::default() }
     }
 
     /// Volume of the buoyancy device beyond neutral, m³.
@@ -58,15 +56,22 @@ impl<'a> Actuators<'a> {
         state.displaced_volume_m3 - self.neutral_volume_m3
     }
 
-    /// One tick under some commands.
-    pub(super) fn advance(&mut self, plant: &Plant<f64>, state: &State<f64>, commands: &Commands) -> State<f64> {
+    /// One tick under some commands, from `time_s` on; `here` is the water where and when it begins.
+    pub(super) fn advance(
+        &mut self,
+        plant: &Plant<f64>,
+        state: &State<f64>,
+        commands: &Commands,
+        (ocean, here, time_s): (&Ocean, &Sample, f64),
+    ) -> State<f64> {
         let rates = self.rates(state, commands);
-        self.charge(state, &rates);
+        self.charge(here.around.pressure_pa, &rates);
         // A geared drive takes up its speed at once, and the vehicle recoils.
         let mut next = plant.with_particle_rates(state, rates.r_px_m_s, rates.mu_rad_s);
-        for _ in 0..STEPS_PER_TICK {
+        for step in 0..STEPS_PER_TICK {
             let particle = Particle::Driven { u_b_m3_s: rates.volume_m3_s };
-            next = rk4_step(plant, &next, &particle, TICK_S / f64::from(STEPS_PER_TICK));
+            let water = ocean.from_time(time_s + f64::from(step) * STEP_S);
+            next = rk4_step(plant, &next, &particle, STEP_S, &water);
         }
         next
     }
@@ -104,9 +109,8 @@ impl<'a> Actuators<'a> {
         }
     }
 
-    fn charge(&mut self, state: &State<f64>, rates: &Rates) {
-        let (water, energy) = (&self.flying.vehicle.water, self.flying.energy);
-        let pressure_pa = (water.density_kg_m3 * water.gravity_m_s2 * state.position_m.z).max(0.0);
+    fn charge(&mut self, pressure_pa: f64, rates: &Rates) {
+        let energy = self.flying.energy;
         let running = |rate: f64, power_w: f64| if rate == 0.0 { 0.0 } else { power_w * TICK_S };
         if rates.volume_m3_s > 0.0 {
             self.used.pump += pump_power_w(self.flying.buoyancy, pressure_pa, rates.volume_m3_s) * TICK_S;

@@ -9,6 +9,7 @@ use shared::device::{Attitude, GpsFix, Measurements, TICK_HZ};
 use super::{FlyingVehicle, actuators::Actuators};
 use crate::{
     mission_file::Start,
+    ocean::Sample,
     plant::{State, euler_from_quaternion, rotation_from_quaternion},
 };
 
@@ -44,7 +45,6 @@ const M_PER_DEG: f64 = 111_194.93;
 pub(super) struct Sensors {
     noise: Pcg64Mcg,
     start: Start,
-    pa_per_m: f64,
     tail_m: f64,
     pots: [Pot; 3],
     battery_mv: u16,
@@ -72,14 +72,13 @@ impl Pot {
 
 impl Sensors {
     pub(super) fn new(flying: &FlyingVehicle<'_>, start: &Start, seed: u64) -> Self {
-        let (vehicle, water) = (flying.vehicle, &flying.vehicle.water);
+        let vehicle = flying.vehicle;
         let mut noise = Pcg64Mcg::seed_from_u64(seed);
         let tilt = Vector3::new(TILT_BIAS_DEG, TILT_BIAS_DEG, HEADING_BIAS_DEG);
         let pressure_bias_pa = PRESSURE_BIAS_PA * normal(&mut noise);
         let attitude_bias_deg = tilt.map(|sigma| sigma * normal(&mut noise));
         Self {
             start: *start,
-            pa_per_m: water.density_kg_m3 * water.gravity_m_s2,
             tail_m: 0.5 * vehicle.hull.length_m + ANTENNA_M,
             pots: [vehicle.moving_mass.travel_m, vehicle.moving_mass.roll_deg, flying.buoyancy.volume_m3].map(Pot::new),
             battery_mv: (flying.energy.battery_v * 1e3).round() as u16,
@@ -90,10 +89,9 @@ impl Sensors {
         }
     }
 
-    /// One tick of measurements.
-    pub(super) fn measure(&mut self, state: &State<f64>, actuators: &Actuators<'_>) -> Measurements {
-        let pressure_pa =
-            (self.pa_per_m * state.position_m.z).max(0.0) + self.pressure_bias_pa + PRESSURE_NOISE_PA * self.normal();
+    /// One tick of measurements in some water.
+    pub(super) fn measure(&mut self, state: &State<f64>, here: &Sample, actuators: &Actuators<'_>) -> Measurements {
+        let pressure_pa = here.around.pressure_pa + self.pressure_bias_pa + PRESSURE_NOISE_PA * self.normal();
         let [travel, roll, volume] = self.pots;
         let attitude = self.attitude(state);
         Measurements {
@@ -103,14 +101,14 @@ impl Sensors {
             mu_cdeg: (roll.read(state.mu_rad.to_degrees()) * 100.0).round() as i16,
             vbd_ul: (volume.read(actuators.vbd_m3(state)) * 1e9).round() as i32,
             battery_mv: self.battery_mv,
-            gps: self.fix(state),
+            gps: self.fix(state, here),
         }
     }
 
     /// Whether the antenna, on the tail, is out of the water.
-    pub(super) fn antenna_is_clear(&self, state: &State<f64>) -> bool {
+    pub(super) fn antenna_is_clear(&self, state: &State<f64>, here: &Sample) -> bool {
         let down = rotation_from_quaternion(&state.quaternion).row(2).transpose();
-        state.position_m.z - down.x * self.tail_m < -CLEAR_M
+        state.position_m.z + here.around.surface_m - down.x * self.tail_m < -CLEAR_M
     }
 
     fn attitude(&mut self, state: &State<f64>) -> Attitude {
@@ -131,8 +129,8 @@ impl Sensors {
         }
     }
 
-    fn fix(&mut self, state: &State<f64>) -> Option<GpsFix> {
-        self.clear_ticks = if self.antenna_is_clear(state) { self.clear_ticks + 1 } else { 0 };
+    fn fix(&mut self, state: &State<f64>, here: &Sample) -> Option<GpsFix> {
+        self.clear_ticks = if self.antenna_is_clear(state, here) { self.clear_ticks + 1 } else { 0 };
         let error_m = [GPS_NOISE_M; 2].map(|sigma| sigma * self.normal());
         if self.clear_ticks < GPS_ACQUISITION_S * TICK_HZ {
             return None;

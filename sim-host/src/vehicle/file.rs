@@ -7,7 +7,8 @@
 use nalgebra::{Matrix3, Matrix6, Vector3};
 
 use super::{
-    AddedMass, Body, Buoyancy, Energy, Fin, Hull, Hydrodynamics, Limits, MomentFrame, MovingMass, Vehicle, Water, Wing,
+    AddedMass, Body, Buoyancy, Elasticity, Energy, Fin, Hull, Hydrodynamics, Limits, MomentFrame, MovingMass, Vehicle,
+    Water, Wing,
 };
 use crate::toml_file::{self, FileError, Rule, Section};
 
@@ -197,12 +198,22 @@ fn buoyancy(buoyancy: &mut Section<'_>) -> Buoyancy {
         position_m: buoyancy.number("position_m", Rule::Finite),
         efficiency: buoyancy.pairs("efficiency"),
         idle_power_w: buoyancy.number("idle_power_w", Rule::NotNegative),
+        elasticity: elasticity(buoyancy),
     };
     let rising = read.efficiency.is_sorted_by(|[below, _], [above, _]| below < above);
     let possible = read.efficiency.iter().all(|[_, efficiency]| *efficiency > 0.0 && *efficiency <= 1.0);
     let wrong = read.efficiency.is_empty() || !rising || !possible;
     buoyancy.refuse_if(wrong, "efficiency", "rows of [pressure in Pa, rising; efficiency above 0, at most 1]");
     read
+}
+
+/// Water itself gives way by 5e-10 /Pa and 4e-4 /°C at most: the bounds keep out a slip of units.
+fn elasticity(buoyancy: &mut Section<'_>) -> Elasticity {
+    Elasticity {
+        compressibility_per_pa: buoyancy.number_or("compressibility_per_pa", Rule::Within(0.0, 1e-8), 0.0),
+        thermal_expansion_per_c: buoyancy.number_or("thermal_expansion_per_c", Rule::Within(0.0, 1e-2), 0.0),
+        reference_temperature_c: buoyancy.number_or("reference_temperature_c", Rule::Within(-10.0, 50.0), 15.0),
+    }
 }
 
 fn energy(energy: &mut Section<'_>) -> Energy {

@@ -130,9 +130,13 @@ impl Sensors {
     }
 
     fn fix(&mut self, state: &State<f64>, here: &Sample) -> Option<GpsFix> {
-        self.clear_ticks = if self.antenna_is_clear(state, here) { self.clear_ticks + 1 } else { 0 };
+        let clear = self.antenna_is_clear(state, here);
+        // A wave over the antenna does not lose the satellites at once: as long a time under water as they took to find does.
+        let acquired = GPS_ACQUISITION_S * TICK_HZ;
+        let step = if clear { 1 } else { -1 };
+        self.clear_ticks = self.clear_ticks.saturating_add_signed(step).min(2 * acquired);
         let error_m = [GPS_NOISE_M; 2].map(|sigma| sigma * self.normal());
-        if self.clear_ticks < GPS_ACQUISITION_S * TICK_HZ {
+        if !clear || self.clear_ticks < acquired {
             return None;
         }
         let latitude_deg = self.start.latitude_deg + (state.position_m.x + error_m[0]) / M_PER_DEG;

@@ -1,7 +1,7 @@
 //! A CTD cast as CSV: one line of column names, then one line per level, downwards.
 //!
 //! Needed are `pressure_dbar` (sea pressure) or `depth_m`, `temperature_c` (in situ, ITS-90) and `salinity` (practical); the
-//! names `PRES`, `DEPTH`, `TEMP`, `PSAL` mean the same. Other columns are left alone.
+//! names `PRES`, `DEPTH`, `TEMP`, `PSAL` mean the same. Other columns and empty lines are left alone; quotes are not understood.
 
 use super::{
     column::Level,
@@ -20,11 +20,20 @@ const PRESSURE_DBAR: Rule = Rule::Within(0.0, 12_000.0);
 /// Pascals per decibar.
 const PA_PER_DBAR: f64 = 1e4;
 
-/// Where a column stands and what it may hold.
+/// A column that is read: its number, name and rule.
 #[derive(Clone, Copy)]
-struct Field {
+struct Column<'a> {
     index: usize,
+    name: &'a str,
     rule: Rule,
+}
+
+/// One line of the file, from 1.
+#[derive(Clone, Copy)]
+struct Line<'a> {
+    file: &'a str,
+    number: usize,
+    text: &'a str,
 }
 
 /// Reads a cast; `file` stands in the errors.
@@ -34,50 +43,69 @@ pub(super) fn read(
     composition: Composition,
     gravity_m_s2: f64,
 ) -> Result<Vec<Level>, FileError> {
-    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).flexible(true).from_reader(text.as_bytes());
-    let fail = |line: u64, column: usize, message: String| FileError {
-        file: file.into(),
-        place: Some((line as usize, column + 1)),
-        message,
-    };
-    let header = reader.headers().map_err(|error| fail(1, 0, error.to_string()))?.clone();
-    let find = |names: [&str; 2], rule: Rule| {
-        let index = header.iter().position(|name| names.iter().any(|known| known.eq_ignore_ascii_case(name)))?;
-        Some(Field { index, rule })
-    };
-    let missing = |name: &str| fail(1, 0, format!("no column `{name}` in this cast"));
-    let pressure = find(["pressure_dbar", "PRES"], PRESSURE_DBAR);
-    let down = pressure.or_else(|| find(["depth_m", "DEPTH"], DEPTH_M));
-    let down = down.ok_or_else(|| missing("pressure_dbar` or `depth_m"))?;
-    let temperature = find(["temperature_c", "TEMP"], TEMPERATURE_C).ok_or_else(|| missing("temperature_c"))?;
-    let salinity = find(["salinity", "PSAL"], SALINITY).ok_or_else(|| missing("salinity"))?;
+    let text = text.trim_start_matches('\u{feff}');
+    let lines = text.lines().zip(1..).map(|(text, number)| Line { file, number, text });
+    let mut lines = lines.filter(|line| !line.text.trim().is_empty());
+    let header = lines.next().unwrap_or(Line { file, number: 1, text: "" });
+    let pressure = header.column(["pressure_dbar", "PRES"], PRESSURE_DBAR);
+    let down = pressure.or_else(|| header.column(["depth_m", "DEPTH"], DEPTH_M));
+    let down = down.ok_or_else(|| header.lacks("pressure_dbar` or `depth_m"))?;
+    let temperature = header.column(["temperature_c", "TEMP"], TEMPERATURE_C);
+    let temperature = temperature.ok_or_else(|| header.lacks("temperature_c"))?;
+    let salinity = header.column(["salinity", "PSAL"], SALINITY).ok_or_else(|| header.lacks("salinity"))?;
 
     let mut levels: Vec<Level> = Vec::new();
-    let mut deepest = f64::NEG_INFINITY;
-    for record in reader.records() {
-        let record = record.map_err(|error| fail(0, 0, error.to_string()))?;
-        let line = record.position().map_or(0, csv::Position::line);
-        let value = |field: Field| {
-            let written = record.get(field.index).unwrap_or_default();
-            let read = written.parse::<f64>().ok().filter(|value| field.rule.holds(*value));
-            let name = header.get(field.index).unwrap_or_default();
-            read.ok_or_else(|| fail(line, field.index, format!("`{name}` is `{written}`, but must be {}", field.rule)))
+    for line in lines {
+        let level = Level {
+            depth_m: line.number(down)?,
+            temperature_c: line.number(temperature)?,
+            salinity: line.number(salinity)?,
         };
-        let level = Level { depth_m: value(down)?, temperature_c: value(temperature)?, salinity: value(salinity)? };
-        if level.depth_m <= deepest {
-            let message = format!("{} does not go down from the line above, {deepest}", level.depth_m);
-            return Err(fail(line, down.index, message));
+        if let Some(above) = levels.last().filter(|above| level.depth_m <= above.depth_m) {
+            let message =
+                format!("`{}` is {}, but must be more than the {} above", down.name, level.depth_m, above.depth_m);
+            return Err(line.mistake(down.index, message));
         }
-        deepest = level.depth_m;
         levels.push(level);
     }
     if levels.is_empty() {
-        return Err(fail(2, 0, "no levels in this cast".into()));
+        return Err(header.mistake(0, "this cast has a header and no levels".into()));
     }
     if pressure.is_some() {
-        to_depths(&mut levels, composition, gravity_m_s2).map_err(|error| fail(2, 0, format!("{error:?}")))?;
+        to_depths(&mut levels, composition, gravity_m_s2).map_err(|error| {
+            header.mistake(down.index, format!("the equation of state refuses the cast: {error:?}"))
+        })?;
     }
     Ok(levels)
+}
+
+impl<'a> Line<'a> {
+    /// The column under either name.
+    fn column(&self, names: [&str; 2], rule: Rule) -> Option<Column<'a>> {
+        let headings = self.text.split(',').map(str::trim).enumerate();
+        let mut headings = headings.filter(|(_, name)| names.iter().any(|known| known.eq_ignore_ascii_case(name)));
+        headings.next().map(|(index, name)| Column { index, name, rule })
+    }
+
+    /// The number in a column.
+    fn number(&self, column: Column<'_>) -> Result<f64, FileError> {
+        let written = self.text.split(',').nth(column.index).unwrap_or_default().trim();
+        let read = written.parse().ok().filter(|value| column.rule.holds(*value));
+        let message = || format!("`{}` is `{written}`, but must be {}", column.name, column.rule);
+        read.ok_or_else(|| self.mistake(column.index, message()))
+    }
+
+    fn lacks(&self, name: &str) -> FileError {
+        self.mistake(0, format!("this cast has no column `{name}`"))
+    }
+
+    /// A mistake at the beginning of some column, or at the end of a line that does not reach there.
+    fn mistake(&self, index: usize, message: String) -> FileError {
+        let before: Vec<_> = self.text.split(',').take(index).collect();
+        let padding = self.text.split(',').nth(index).map_or(0, |cell| cell.len() - cell.trim_start().len());
+        let column = before.iter().map(|cell| cell.chars().count() + 1).sum::<usize>() + padding + 1;
+        FileError { file: self.file.into(), place: Some((self.number, column)), message }
+    }
 }
 
 /// Turns pressures in dbar, standing in the place of depths, into depths: dz = dp/(ρ g) from the surface down.
@@ -113,29 +141,32 @@ mod tests {
 
     #[test]
     fn mistakes_are_answered_with_their_place() {
+        const HEADER: &str = "depth_m,temperature_c,salinity\n";
         let rows = [
-            ("depth_m,salinity\n1,35\n", "cast.csv:1:1: no column `temperature_c` in this cast"),
-            ("a,b\n1,2\n", "cast.csv:1:1: no column `pressure_dbar` or `depth_m` in this cast"),
-            ("depth_m,temperature_c,salinity\n", "cast.csv:2:1: no levels in this cast"),
+            ("depth_m,salinity\n1,35\n".into(), "cast.csv:1:1: this cast has no column `temperature_c`"),
+            ("a,b\n1,2\n".into(), "cast.csv:1:1: this cast has no column `pressure_dbar` or `depth_m`"),
+            (String::new(), "cast.csv:1:1: this cast has no column `pressure_dbar` or `depth_m`"),
+            (HEADER.into(), "cast.csv:1:1: this cast has a header and no levels"),
             (
-                "depth_m,temperature_c,salinity\n0,10,35\n5,warm,35\n",
-                "cast.csv:3:2: `temperature_c` is `warm`, but must be a number from -3 to 40",
+                HEADER.to_owned() + "0,10,35\n5, warm,35\n",
+                "cast.csv:3:4: `temperature_c` is `warm`, but must be a number from -3 to 40",
             ),
             (
-                "depth_m,temperature_c,salinity\n0,10,350\n",
-                "cast.csv:2:3: `salinity` is `350`, but must be a number from 0 to 42",
+                HEADER.to_owned() + "0,10,350\r\n",
+                "cast.csv:2:6: `salinity` is `350`, but must be a number from 0 to 42",
+            ),
+            (HEADER.to_owned() + "0,10\n", "cast.csv:2:6: `salinity` is ``, but must be a number from 0 to 42"),
+            (
+                HEADER.to_owned() + "nan,10,35\n",
+                "cast.csv:2:1: `depth_m` is `nan`, but must be a number from 0 to 12000",
             ),
             (
-                "depth_m,temperature_c,salinity\n0,10\n",
-                "cast.csv:2:3: `salinity` is ``, but must be a number from 0 to 42",
-            ),
-            (
-                "depth_m,temperature_c,salinity\n0,10,35\n9,9,35\n\n9,9,35\n",
-                "cast.csv:5:1: 9 does not go down from the line above, 9",
+                HEADER.to_owned() + "0,10,35\n9,9,35\n\n9,9,35\n",
+                "cast.csv:5:1: `depth_m` is 9, but must be more than the 9 above",
             ),
         ];
         for (text, expected) in rows {
-            assert_eq!(parse(text).unwrap_err(), expected, "{text}");
+            assert_eq!(parse(&text).unwrap_err(), expected, "{text}");
         }
     }
 }

@@ -7,6 +7,8 @@ use crate::plant::Surroundings;
 
 /// Spacing of the table, m. The sharpest thermoclines are some metres thick.
 const STEP_M: f64 = 1.0;
+/// Depth down to which the table goes at least, m: deeper than any glider's.
+const DEEPEST_M: f64 = 6_500.0;
 
 /// One point of a profile.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,7 +31,7 @@ pub(super) enum Column {
         /// ρ g.
         pa_per_m: f64,
     },
-    /// Tabulated every [`STEP_M`] from depth 0, linear between; below the last row density and pressure go on as between the last two.
+    /// Tabulated every [`STEP_M`] from depth 0, linear between.
     Tabulated(Vec<Row>),
 }
 
@@ -49,13 +51,13 @@ impl Column {
         Self::Uniform { density_kg_m3, pa_per_m: density_kg_m3 * gravity_m_s2 }
     }
 
-    /// From a profile with depths rising: linear between its points, constant beyond; hydrostatic from the surface down.
+    /// From a profile with depths rising: temperature and salinity linear between its points, constant beyond; hydrostatic.
     pub(super) fn tabulated(
         profile: &[Level],
         composition: Composition,
         gravity_m_s2: f64,
     ) -> Result<Self, gsw::Error> {
-        let bottom_m = profile.last().map_or(0.0, |level| level.depth_m);
+        let bottom_m = profile.last().map_or(0.0, |level| level.depth_m).max(DEEPEST_M);
         let last = (bottom_m / STEP_M).ceil() as u32 + 1;
         let mut rows: Vec<Row> = Vec::new();
         for index in 0..=last {
@@ -113,7 +115,7 @@ impl Column {
     }
 }
 
-/// Linear between the rows; T and S held at both ends, where the table has equal ones.
+/// Linear between the rows, and on from the last two.
 fn between(rows: &[Row], depth_m: f64) -> Row {
     let place = (depth_m / STEP_M).max(0.0);
     let index = (place as usize).min(rows.len().saturating_sub(2));

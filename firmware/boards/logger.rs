@@ -2,7 +2,7 @@
 
 #![allow(unsafe_code, reason = "`defmt::Logger` is an unsafe trait, and its line is shared with interrupts")]
 
-use core::cell::UnsafeCell;
+use core::{cell::UnsafeCell, panic::PanicInfo};
 
 use critical_section::RestoreState;
 
@@ -50,4 +50,10 @@ unsafe impl defmt::Logger for Logger {
         // SAFETY: as in `acquire`, which was called before.
         unsafe { (*LINE.encoder.get()).write(bytes, transmit) }
     }
+}
+
+/// Says where and why, without the formatting of `core::fmt`, which could panic itself.
+pub(super) fn log_panic(info: &PanicInfo<'_>) {
+    let (file, line) = info.location().map_or(("?", 0), |place| (place.file(), place.line()));
+    defmt::error!("panic at {}:{}: {}", file, line, info.message().as_str().unwrap_or("(a message with values)"));
 }

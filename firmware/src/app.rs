@@ -70,7 +70,7 @@ impl<'t, Link: Read + Write, Devices: Board> App<'t, Link, Devices> {
     /// Puts the actuators safe and says hello.
     ///
     /// # Errors
-    /// [`LinkClosed`] if nobody can hear it.
+    /// [`LinkClosed`] if that cannot be said and nothing can be done without a link: in simulation.
     pub fn start(link: Link, mut board: Devices, table: TrimTable<'t>) -> Result<Self, LinkClosed> {
         board.make_safe();
         let simulation = board.bench_jumper_fitted();
@@ -86,8 +86,10 @@ impl<'t, Link: Read + Write, Devices: Board> App<'t, Link, Devices> {
             build: BUILD.try_into().unwrap_or_default(),
             simulation,
         };
-        app.send(&Message::Hello(hello))?;
-        Ok(app)
+        match app.send(&Message::Hello(hello)) {
+            Err(closed) if simulation => Err(closed),
+            Err(LinkClosed) | Ok(()) => Ok(app),
+        }
     }
 
     /// Whether measurements come over the link.
@@ -176,24 +178,16 @@ impl<'t, Link: Read + Write, Devices: Board> App<'t, Link, Devices> {
 
 impl<Link: Read + ReadReady + Write, Devices: Board> App<'_, Link, Devices> {
     /// Flies from the drivers, for ever: every beat on time, a tick every [`BEATS_PER_TICK`] of them, asleep in between.
-    pub fn fly(&mut self) -> LinkClosed {
+    pub fn fly(&mut self) -> ! {
         loop {
-            if let Err(closed) = self.fly_round() {
-                self.board.make_safe();
-                return closed;
-            }
+            self.fly_round();
             self.board.sleep(self.beats_done);
         }
     }
 
-    /// Does what is due now: the link's messages, the drivers' beat, the autopilot's tick.
-    ///
-    /// # Errors
-    /// [`LinkClosed`] at the end of the stream.
-    pub fn fly_round(&mut self) -> Result<(), LinkClosed> {
-        while self.link.read_ready().map_err(|_| LinkClosed)? {
-            self.serve()?;
-        }
+    /// Does what is due now: the link's messages, the drivers' beats, the autopilot's tick. A link that breaks ends no flight.
+    pub fn fly_round(&mut self) {
+        while matches!(self.link.read_ready(), Ok(true)) && self.serve().is_ok() {}
         let due = self.board.beats().wrapping_sub(self.beats_done);
         if due > 1 {
             log!(warn, "{} beats late", due.wrapping_sub(1));
@@ -201,7 +195,6 @@ impl<Link: Read + ReadReady + Write, Devices: Board> App<'_, Link, Devices> {
         for _ in 0..due {
             self.beat();
         }
-        Ok(())
     }
 
     fn beat(&mut self) {

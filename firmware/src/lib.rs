@@ -7,6 +7,8 @@
 //! No driver for pressure, attitude or position: in flight those measurements stay `None`, and the autopilot does not leave
 //! the surface. Simulated measurements come over the link, with the bench jumper fitted.
 //!
+//! No watchdog and no drop weight: after a panic the actuators are safe, and stay so until somebody resets the board.
+//!
 //! # Time
 //! A *beat* is the drivers' period, [`BEAT_HZ`]; a *tick* is the autopilot's, [`shared::device::TICK_HZ`].
 

@@ -61,7 +61,7 @@ mod tests {
             assert_eq!(order.take_beat(), 7);
         }
         assert_eq!(order.take_beat(), 0);
-        assert_eq!(Order::STALE.take_beat(), 0);
+        assert_eq!(order, Order { rate: 7, ..Order::STALE });
     }
 
     #[test]

@@ -1,10 +1,15 @@
 //! Firmware images, built by a nested cargo.
 
 use std::{
+    fs,
     path::{Path, PathBuf},
     process::Command,
 };
 
+use object::{
+    Object, ObjectSection, ObjectSymbol, SectionFlags,
+    elf::{SHF_ALLOC, SHF_WRITE},
+};
 use sim_host::link::Machine;
 
 /// Root of the workspace.
@@ -41,4 +46,48 @@ pub fn build(feature: &str, bin: &str) -> PathBuf {
         .expect("cargo starts");
     assert!(status.success(), "the firmware's {bin} does not build");
     target_dir.join(TARGET).join("firmware").join(bin)
+}
+
+/// What an image takes of a board's memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sizes {
+    /// Code, constants, trim table and initial values, bytes.
+    pub flash: u64,
+    /// Statics, bytes; what is left of the RAM is the stack's.
+    pub statics: u64,
+}
+
+/// Measures an image by its sections.
+///
+/// # Panics
+/// If it is not an ELF file.
+#[must_use]
+pub fn sizes(image: &Path) -> Sizes {
+    let elf = fs::read(image).expect("the image is there");
+    let elf = object::File::parse(&*elf).expect("an ELF file");
+    let mut sizes = Sizes { flash: 0, statics: 0 };
+    for section in elf.sections() {
+        let SectionFlags::Elf { sh_flags } = section.flags() else { continue };
+        let (loaded, writable) = (sh_flags & u64::from(SHF_ALLOC) != 0, sh_flags & u64::from(SHF_WRITE) != 0);
+        if loaded && writable {
+            sizes.statics += section.size();
+        }
+        // What is zero at the start has no place in the file, and none in flash.
+        if loaded && section.file_range().is_some() {
+            sizes.flash += section.size();
+        }
+    }
+    sizes
+}
+
+/// Names of all functions that an image holds.
+///
+/// # Panics
+/// If it is not an ELF file with symbols.
+#[must_use]
+pub fn functions(image: &Path) -> Vec<String> {
+    let elf = fs::read(image).expect("the image is there");
+    let elf = object::File::parse(&*elf).expect("an ELF file");
+    let text = elf.symbols().filter(|symbol| symbol.kind() == object::SymbolKind::Text);
+    text.filter_map(|symbol| Some(symbol.name().ok()?.to_owned())).collect()
 }

@@ -3,6 +3,7 @@
 #![allow(clippy::expect_used, clippy::unwrap_used, reason = "this is test code: a panic is how it says no")]
 
 pub mod bench;
+pub mod devices;
 pub mod dive;
 pub mod image;
 pub mod log;

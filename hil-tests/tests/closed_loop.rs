@@ -38,18 +38,29 @@ fn figures(summary: &Summary) -> Summary {
     Summary { wall_s: 0.0, real_time_factor: 0.0, ..summary.clone() }
 }
 
+/// The phases that the firmware logged, in order.
+fn phases(traces: &Traces) -> Vec<String> {
+    let log = traces.log();
+    let told = log.iter().filter_map(|line| line.strip_prefix("info tick "));
+    told.filter_map(|line| Some(line.split_once(": ")?.1.to_owned())).collect()
+}
+
 #[test]
 fn mps2_flies_the_default_mission_over_fifos() {
     let dive = Dive::standard();
-    let (firmware, _) = fly_both(Machine::Mps2An386, "mps2", &dive);
+    let (firmware, traces) = fly_both(Machine::Mps2An386, "mps2", &dive);
     // 128 ns of virtual time per instruction (`-icount shift=7`), 40 ns per count of the 25 MHz core clock.
     let mut instructions: Vec<u32> = firmware.step_clocks().iter().map(|clocks| clocks * 40 / 128).collect();
     instructions.sort_unstable();
     let (median, worst) = (instructions[instructions.len() / 2], instructions[instructions.len() - 1]);
     report(&format!("instructions per step: median {median}, worst {worst}"));
+    let yos = ["Dive, yo 1", "Apogee, yo 1", "Climb, yo 1", "Crest, yo 1", "Dive, yo 2", "Apogee, yo 2", "Climb, yo 2"];
+    assert_eq!(phases(&traces), [yos.as_slice(), &["Surfacing, yo 2", "Complete, yo 2"]].concat());
 }
 
 #[test]
 fn f405_flies_a_short_dive_over_its_uart() {
-    let (_, _) = fly_both(Machine::NetduinoPlus2, "f405", &Dive::short());
+    let (_, traces) = fly_both(Machine::NetduinoPlus2, "f405", &Dive::short());
+    let dive = ["Dive, yo 1", "Apogee, yo 1", "Climb, yo 1", "Surfacing, yo 1", "Complete, yo 1"];
+    assert_eq!(phases(&traces), dive);
 }

@@ -99,7 +99,7 @@ fn assert_log(log: &[String], expected: &[&str]) {
     assert!(alike, "logged {log:#?}, expected {expected:#?}");
 }
 
-/// The bytes of a sensor frame with one change to the plain content, its CRC made to fit or not.
+/// The bytes of a sensor frame.
 fn frame_of(tick: u32) -> Vec<u8> {
     let header = Header { sequence: 0, auth: Auth::None };
     encode(&header, &sensors(tick), &mut [0; MAX_FRAME]).unwrap().to_vec()

@@ -355,7 +355,7 @@ mod tests {
 
     fn well(depth_m: i32, vbd_ul: i32) -> Measurements {
         Measurements {
-            pressure_pa: Some(depth_m * 9_810),
+            pressure_pa: Some(depth_m.saturating_mul(9_810)),
             attitude: Some(Attitude {
                 roll_cdeg: 0,
                 pitch_cdeg: -2_600,

@@ -5,6 +5,7 @@ use crate::{
     math,
     parameters::Parameters,
     table::TrimTable,
+    vehicle::Range,
 };
 
 /// Half the step over which the table's slope is taken, rad.
@@ -95,7 +96,8 @@ impl PitchLoop {
         let share = self.gain_percent as f32 / 100.0 * mean_cdeg as f32 * RAD_PER_CDEG;
         let change_um = math::round_to_i32(share * slope_m_per_rad(table, steady) * UM_PER_M);
         let trimmed_um = trim.trim_um.saturating_add(change_um);
-        trim.trim_um = trimmed_um.clamp(self.trim_limit_um.saturating_neg(), self.trim_limit_um);
+        let limits = Range { min: self.trim_limit_um.saturating_neg(), max: self.trim_limit_um };
+        trim.trim_um = limits.clamp(trimmed_um);
     }
 }
 

@@ -152,7 +152,7 @@ pub fn encode<'a>(header: &Header, message: &Message, frame: &'a mut [u8; MAX_FR
     if cobs::max_encoding_length(plain.len()) >= MAX_FRAME {
         return Err(TooLong);
     }
-    let encoded = cobs::encode(plain, frame.as_mut_slice());
+    let encoded = cobs::try_encode(plain, frame.as_mut_slice()).map_err(|_| TooLong)?;
     *frame.get_mut(encoded).ok_or(TooLong)? = DELIMITER;
     frame.get(..=encoded).ok_or(TooLong)
 }
@@ -226,9 +226,11 @@ impl Decoder {
     }
 
     fn read_frame(&mut self, used: usize) -> Result<(Header, Message), Damage> {
-        let frame = self.buffer.get_mut(..used).ok_or(Damage::Corrupt)?;
-        let plain_bytes = cobs::decode_in_place(frame).map_err(|_| Damage::Corrupt)?;
-        let plain = frame.get(..plain_bytes).ok_or(Damage::Corrupt)?;
+        let frame = self.buffer.get(..used).ok_or(Damage::Corrupt)?;
+        // Not in place: that decoder indexes, and leaves a panic in the image that nobody can reach.
+        let mut plain = [0; MAX_FRAME];
+        let plain_bytes = cobs::decode(frame, &mut plain).map_err(|_| Damage::Corrupt)?;
+        let plain = plain.get(..plain_bytes).ok_or(Damage::Corrupt)?;
         let (content, crc) = plain.split_last_chunk::<CRC_BYTES>().ok_or(Damage::Corrupt)?;
         if crc32(content) != u32::from_le_bytes(*crc) {
             return Err(Damage::Corrupt);

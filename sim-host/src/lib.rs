@@ -8,13 +8,16 @@ pub mod helix;
 #[cfg(unix)]
 pub mod link;
 pub mod mission_file;
+pub mod modes;
 pub mod ocean;
 pub mod pilot;
 pub mod plant;
 pub mod real;
 pub mod record;
+pub mod report;
 pub mod table;
 pub mod toml_file;
 pub mod trim;
+pub mod turn;
 pub mod vehicle;
 pub mod whole_file;

@@ -1,14 +1,12 @@
 //! Generates the trim table that flies, from the plant, and measures how well it interpolates.
 
-use std::f64::consts::FRAC_PI_2;
-
 use shared::{
     table::{Axis, Grid, Header, Node, QUANTITIES, TableError, TrimTable, write},
     vehicle::{Actuators, FlightVehicle, GlideConstants, Range},
 };
 
 use crate::{
-    helix::{Helix, HelixSolver},
+    helix::{Helix, HelixSolver, Slope, Turn},
     trim::{Condition, Scale, glide},
     vehicle::Vehicle,
 };
@@ -176,13 +174,14 @@ fn side_nodes(vehicle: &Vehicle, solver: &HelixSolver, grid: &Grid, sign: f64) -
     for i in 0..grid.path_angle_rad.count {
         for j in 0..grid.root_net_mass.count {
             let root = f64::from(grid.root_net_mass.at(j));
-            let level = level_helix(vehicle, solver, f64::from(grid.path_angle_rad.at(i)), sign * root * root)?;
-            let slope = solver.solve(&level, libm::asin(SMALL_SIN_MU))?;
+            let path_angle_rad = f64::from(grid.path_angle_rad.at(i));
+            let level = level_helix(vehicle, solver, path_angle_rad, sign * root * root)?;
+            let slightly_turned = turned_helix(solver, &level, path_angle_rad, SMALL_SIN_MU)?;
             for k in 0..grid.sin_mu.count {
                 let sin_mu = f64::from(grid.sin_mu.at(k));
-                let turned = turned_helix(solver, &level, sin_mu)?;
+                let turned = turned_helix(solver, &level, path_angle_rad, sin_mu)?;
                 let (over, turned_for_slope) =
-                    if sin_mu.abs() < SMALL_SIN_MU { (SMALL_SIN_MU, &slope) } else { (sin_mu, &turned) };
+                    if sin_mu.abs() < SMALL_SIN_MU { (SMALL_SIN_MU, &slightly_turned) } else { (sin_mu, &turned) };
                 nodes.push(Node {
                     r_px_m: turned.r_px_m as f32,
                     speed_factor: (turned.speed_m_s / root) as f32,
@@ -205,16 +204,16 @@ fn level_helix(
     net_mass_kg: f64,
 ) -> Result<Helix, String> {
     let level = glide(vehicle, Condition::PathAngle(path_angle_rad), Scale::NetMass(net_mass_kg))?;
-    solver.solve(&Helix::from(&level), 0.0)
+    solver.solve(&Helix::from(&level), Slope::PathAngle(path_angle_rad), Turn::Mu(0.0))
 }
 
 /// Follows the helix from `level` to a rotation of the mass in steps that Newton's method takes easily.
-fn turned_helix(solver: &HelixSolver, level: &Helix, sin_mu: f64) -> Result<Helix, String> {
+fn turned_helix(solver: &HelixSolver, level: &Helix, path_angle_rad: f64, sin_mu: f64) -> Result<Helix, String> {
     const STEPS: u32 = 4;
     let mut helix = *level;
     for step in 1..=STEPS {
         let sine = sin_mu * f64::from(step) / f64::from(STEPS);
-        helix = solver.solve(&helix, libm::asin(sine).clamp(-FRAC_PI_2, FRAC_PI_2))?;
+        helix = solver.solve(&helix, Slope::PathAngle(path_angle_rad), Turn::Mu(libm::asin(sine)))?;
     }
     Ok(helix)
 }
@@ -235,7 +234,7 @@ fn side_error(
             let net_mass_kg = sign * root * root;
             let level = level_helix(vehicle, solver, path_angle_rad, net_mass_kg)?;
             for k in 0..grid.sin_mu.count - 1 {
-                let exact = turned_helix(solver, &level, between(&grid.sin_mu, k))?;
+                let exact = turned_helix(solver, &level, path_angle_rad, between(&grid.sin_mu, k))?;
                 let found = table.look_up(path_angle_rad as f32, net_mass_kg as f32, exact.mu_rad as f32);
                 let grow = |worst: &mut f64, error: f64| *worst = worst.max(error.abs());
                 grow(&mut worst.speed, f64::from(found.speed_m_s) / exact.speed_m_s - 1.0);

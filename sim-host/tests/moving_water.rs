@@ -2,6 +2,9 @@
 
 #![allow(clippy::unwrap_used, reason = "in a test a panic is the report")]
 
+mod common;
+
+use common::lopsided;
 use nalgebra::{Matrix3, Vector3};
 use sim_host::{
     ocean::Ocean,
@@ -13,17 +16,6 @@ use sim_host::{
 };
 
 const DRIVEN: Particle<f64> = Particle::Driven { u_b_m3_s: 0.0 };
-
-/// The paper's Slocum with its centre of mass out of the symmetry plane and an added mass that couples every axis.
-fn lopsided() -> Vehicle {
-    let mut vehicle = Vehicle::load("slocum-paper").unwrap();
-    let skew = Matrix3::new(0.0, 0.3, -0.2, 0.3, 0.0, 0.4, -0.2, 0.4, 0.0);
-    vehicle.body.centre_of_mass_m = Vector3::new(-0.02, 0.03, 0.07);
-    vehicle.added_mass.mass_kg += skew * 10.0;
-    vehicle.added_mass.inertia_kg_m2 -= skew;
-    vehicle.added_mass.coupling_kg_m = Matrix3::new(0.5, -1.0, 0.8, 1.2, 0.4, -2.0, 0.7, 3.0, -0.6);
-    vehicle
-}
 
 /// A state that gives every term something to do.
 fn gliding(plant: &Plant<f64>, net_mass_kg: f64) -> State<f64> {

@@ -1,6 +1,9 @@
 //! The plant against an independent model, and against itself.
 
-use nalgebra::{Matrix3, Vector3};
+mod common;
+
+use common::{lopsided, unforced};
+use nalgebra::Vector3;
 use serde_json::Value;
 use sim_host::{
     eval::eval,
@@ -10,27 +13,6 @@ use sim_host::{
 
 fn slocum() -> Vehicle {
     Vehicle::load("slocum-paper").unwrap()
-}
-
-/// The paper's Slocum made lopsided, so that no term of the equations vanishes by symmetry.
-fn lopsided() -> Vehicle {
-    let mut vehicle = slocum();
-    let skew = Matrix3::new(0.0, 0.3, -0.2, 0.3, 0.0, 0.4, -0.2, 0.4, 0.0);
-    vehicle.body.centre_of_mass_m = Vector3::new(-0.02, 0.03, 0.07);
-    vehicle.body.inertia_kg_m2 += skew;
-    vehicle.added_mass.mass_kg += skew * 10.0;
-    vehicle.added_mass.inertia_kg_m2 -= skew;
-    vehicle.added_mass.coupling_kg_m = Matrix3::new(0.5, -1.0, 0.8, 1.2, 0.4, -2.0, 0.7, 3.0, -0.6);
-    vehicle.moving_mass.inertia_kg_m2 = Vector3::new(0.02, 0.4, 0.17);
-    vehicle
-}
-
-fn in_vacuum(mut vehicle: Vehicle) -> Plant<f64> {
-    let hydro = &mut vehicle.hydrodynamics;
-    // Zero area, and so no force; zero density, and so no buoyancy.
-    hydro.area_m2 = 0.0;
-    vehicle.water.gravity_m_s2 = 0.0;
-    Plant::new(&vehicle)
 }
 
 fn tumbling(plant: &Plant<f64>) -> State<f64> {
@@ -80,7 +62,7 @@ fn two_states_agree_with_an_independent_lagrangian_model() {
 #[test]
 fn kinetic_energy_is_kept_while_tumbling_with_the_mass_moving() {
     for vehicle in [slocum(), lopsided()] {
-        let plant = in_vacuum(vehicle);
+        let plant = unforced(vehicle);
         let mut state = tumbling(&plant);
         let before = plant.kinetic_energy_j(&state);
         let (mut drift, mut travel_m, mut swing_rad) = (0.0_f64, 0.0_f64, 0.0_f64);
@@ -98,7 +80,7 @@ fn kinetic_energy_is_kept_while_tumbling_with_the_mass_moving() {
 
 #[test]
 fn the_energy_is_half_the_velocity_times_the_mass_matrix_times_the_velocity() {
-    let plant = in_vacuum(lopsided());
+    let plant = unforced(lopsided());
     let state = tumbling(&plant);
     let (v, w) = (state.velocity_m_s, state.rate_rad_s);
     let eta = nalgebra::SVector::from([v.x, v.y, v.z, w.x, w.y, w.z, state.r_px_rate_m_s, state.mu_rate_rad_s]);

@@ -180,6 +180,28 @@ fn what_is_not_toml_is_one_line_too() {
 }
 
 #[test]
+fn a_section_that_is_no_table_is_a_mistake() {
+    let text = with("[limits]\nworking_depth_m = 200 # chosen\ncrush_depth_m = 300 # chosen\n", "[[limits]]\n");
+    let line = mistake(&text);
+    assert!(line.ends_with("but must be a table"), "{line}");
+    let text = with("[hull]\nlength_m = 1.5 # P  l\nfineness = 7 # P  f = l/d, so d = 0.21429 m\n", "hull = 3\n");
+    assert_eq!(mistake(&text), place(&text, "3\n") + "`hull` is 3, but must be a table");
+}
+
+#[test]
+fn a_file_cut_off_anywhere_or_without_a_line_is_one_line_of_error_or_a_vehicle() {
+    let cut = SLOCUM.char_indices().map(|(offset, _)| SLOCUM[..offset].to_owned());
+    let lines: Vec<_> = SLOCUM.lines().collect();
+    let without = (0..lines.len()).map(|index| [&lines[..index], &lines[index + 1..]].concat().join("\n"));
+    for text in cut.chain(without) {
+        if let Err(error) = Vehicle::from_toml(&text, "v.toml") {
+            let line = error.to_string();
+            assert!(line.starts_with("v.toml:") && !line.contains('\n'), "{line}");
+        }
+    }
+}
+
+#[test]
 fn reference_lengths_default_to_the_wings() {
     let hydrodynamics = slocum().hydrodynamics;
     assert!((hydrodynamics.area_m2 - 0.150_278).abs() < 1e-6);

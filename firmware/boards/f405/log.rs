@@ -10,6 +10,7 @@ use crate::uart::send;
 
 #[path = "../logger.rs"]
 mod logger;
+use logger::log_panic;
 
 /// Best effort: a log that nobody takes stops nothing.
 fn transmit(bytes: &[u8]) {
@@ -43,7 +44,7 @@ pub(crate) fn stay_safe() -> ! {
 fn panic(info: &PanicInfo<'_>) -> ! {
     cortex_m::interrupt::disable();
     force_safe();
-    defmt::error!("panic: {}", defmt::Debug2Format(info));
+    log_panic(info);
     stay_safe()
 }
 

@@ -21,7 +21,7 @@ fn main() -> ! {
     log::stay_safe()
 }
 
-/// Flies, or simulates, for as long as there is a link; `None` if that could not even begin.
+/// Flies for good, or simulates for as long as there is a link; `None` if that could not even begin.
 fn run() -> Option<()> {
     let (board, link, table) = board::start()?;
     let mut app = App::start(link, board, table).ok()?;

@@ -9,6 +9,7 @@ use crate::{semihosting::HostFile, start::end};
 
 #[path = "../logger.rs"]
 mod logger;
+use logger::log_panic;
 
 static LOG: Mutex<Cell<Option<HostFile>>> = Mutex::new(Cell::new(None));
 
@@ -31,7 +32,7 @@ fn transmit(bytes: &[u8]) {
 /// There are no actuators to put safe; ends the emulation, so that whoever waits for an answer learns of it.
 #[panic_handler]
 fn panic(info: &PanicInfo<'_>) -> ! {
-    defmt::error!("panic: {}", defmt::Debug2Format(info));
+    log_panic(info);
     end(false)
 }
 

@@ -17,6 +17,7 @@ use crate::{
     mission_file::MissionFile,
     ocean::Ocean,
     record::{Record, Sample},
+    report::{self, Flight},
     table::{Envelope, describe, generate},
     whole_file,
 };
@@ -70,16 +71,19 @@ pub(super) fn run(args: &Args) -> Result<(), String> {
     })?;
     progress.finish();
 
-    write_folder(&args.out, &record, &summary)?;
+    let flight = Flight { vehicle: &vehicle, mission: &file.mission, record: &record, summary: &summary };
+    write_folder(&args.out, &flight)?;
     if args.json { super::print_json(&summary) } else { super::print(&describe_flight(args, &summary)) }
 }
 
-/// Record and summary of a flight, in one folder.
-fn write_folder(out: &Path, record: &Record, summary: &Summary) -> Result<(), String> {
-    record.write_csv(&out.join("record.csv"))?;
-    record.write_parquet(&out.join("record.parquet"))?;
+/// Report, record and summary of a flight, in one folder.
+fn write_folder(out: &Path, flight: &Flight<'_>) -> Result<(), String> {
+    flight.record.write_csv(&out.join("record.csv"))?;
+    flight.record.write_parquet(&out.join("record.parquet"))?;
+    whole_file::write(&out.join("report.html"), |file| writeln!(file, "{}", report::html(flight)))?;
+    whole_file::write(&out.join("picture.svg"), |file| writeln!(file, "{}", report::picture(flight)))?;
     whole_file::write(&out.join("summary.json"), |file| {
-        serde_json::to_writer_pretty(&mut *file, summary)?;
+        serde_json::to_writer_pretty(&mut *file, flight.summary)?;
         writeln!(file)
     })
 }

@@ -2,6 +2,7 @@
 
 mod fly;
 mod progress;
+mod stability;
 mod table;
 mod trim;
 
@@ -29,6 +30,10 @@ enum Command {
     Fly(fly::Args),
     /// Find a steady wings-level glide
     Trim(trim::Args),
+    /// Turn a glide: how much mu, roll and sideslip it takes, and how fast it can turn
+    Turn(stability::TurnArgs),
+    /// Disturb a glide: eigenvalues and modes
+    Modes(stability::ModesArgs),
     /// Generate the trim table that flies
     Table(table::Args),
     /// Draw a three-view to scale and the forces of a steady glide, as SVG
@@ -52,6 +57,8 @@ pub fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Fly(args) => fly::run(&args),
         Command::Trim(args) => trim::run(&args),
+        Command::Turn(args) => stability::turn(&args),
+        Command::Modes(args) => stability::run_modes(&args),
         Command::Table(args) => table::run(&args),
         Command::Draw(args) => trim::draw(&args),
         Command::Eval(args) => run_eval(&args),

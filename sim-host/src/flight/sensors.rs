@@ -31,6 +31,8 @@ const RATE_NOISE_DEG_S: f64 = 0.1;
 const GPS_NOISE_M: f64 = 3.0;
 /// Time with the antenna clear until positions come, s.
 const GPS_ACQUISITION_S: u32 = 20;
+/// Time under water that the search survives: waves wash over the antenna, s.
+const GPS_MEMORY_S: u32 = 20;
 /// Antenna above the tail, along the hull's axis, m.
 const ANTENNA_M: f64 = 0.2;
 /// Height of the antenna's tip at which waves no longer wash it, m.
@@ -51,6 +53,7 @@ pub(super) struct Sensors {
     pressure_bias_pa: f64,
     attitude_bias_deg: Vector3<f64>,
     clear_ticks: u32,
+    under_ticks: u32,
 }
 
 /// A position potentiometer: a range in steps.
@@ -86,6 +89,7 @@ impl Sensors {
             pressure_bias_pa,
             attitude_bias_deg,
             clear_ticks: 0,
+            under_ticks: 0,
         }
     }
 
@@ -131,12 +135,13 @@ impl Sensors {
 
     fn fix(&mut self, state: &State<f64>, here: &Sample) -> Option<GpsFix> {
         let clear = self.antenna_is_clear(state, here);
-        // A wave over the antenna does not lose the satellites at once: as long a time under water as they took to find does.
-        let acquired = GPS_ACQUISITION_S * TICK_HZ;
-        let step = if clear { 1 } else { -1 };
-        self.clear_ticks = self.clear_ticks.saturating_add_signed(step).min(2 * acquired);
+        self.under_ticks = if clear { 0 } else { self.under_ticks.saturating_add(1) };
+        if self.under_ticks > GPS_MEMORY_S * TICK_HZ {
+            self.clear_ticks = 0;
+        }
+        self.clear_ticks = self.clear_ticks.saturating_add(clear.into());
         let error_m = [GPS_NOISE_M; 2].map(|sigma| sigma * self.normal());
-        if !clear || self.clear_ticks < acquired {
+        if !clear || self.clear_ticks < GPS_ACQUISITION_S * TICK_HZ {
             return None;
         }
         let latitude_deg = self.start.latitude_deg + (state.position_m.x + error_m[0]) / M_PER_DEG;

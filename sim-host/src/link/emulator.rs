@@ -147,6 +147,8 @@ impl Emulator {
 
     /// Gives QEMU's monitor a command and returns what it prints.
     ///
+    /// Not while firmware waits on a FIFO: semihosting holds the whole emulator until the host says something.
+    ///
     /// # Errors
     /// One line: the monitor does not answer.
     pub fn monitor(&self, command: &str) -> Result<String, String> {

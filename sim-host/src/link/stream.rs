@@ -25,13 +25,21 @@ pub struct Stream {
     decoder: Decoder,
     arrived: VecDeque<Message>,
     sequence: u32,
+    hung_up: bool,
 }
 
 impl Stream {
     /// Takes two files; the one that is read from must not block.
     #[must_use]
     pub fn new(from_firmware: File, to_firmware: File) -> Self {
-        Self { from_firmware, to_firmware, decoder: Decoder::default(), arrived: VecDeque::new(), sequence: 0 }
+        Self {
+            from_firmware,
+            to_firmware,
+            decoder: Decoder::default(),
+            arrived: VecDeque::new(),
+            sequence: 0,
+            hung_up: false,
+        }
     }
 
     /// Takes a socket.
@@ -74,9 +82,13 @@ impl Stream {
             if let Some(message) = self.arrived.pop_front() {
                 return Ok(message);
             }
-            if !self.take_bytes()? {
-                self.wait(deadline, patience)?;
+            if self.take_bytes()? {
+                continue;
             }
+            if self.hung_up {
+                return Err("the firmware closed the link".into());
+            }
+            self.wait(deadline, patience)?;
         }
     }
 
@@ -105,20 +117,17 @@ impl Stream {
         Ok(true)
     }
 
-    fn wait(&self, deadline: Instant, patience: Duration) -> Result<(), String> {
+    /// Waits for bytes or for the end of the link; what came before the end is still to be taken.
+    fn wait(&mut self, deadline: Instant, patience: Duration) -> Result<(), String> {
         let left = deadline.saturating_duration_since(Instant::now());
         let timeout = PollTimeout::try_from(left).unwrap_or(PollTimeout::MAX);
         let mut descriptors = [PollFd::new(self.from_firmware.as_fd(), PollFlags::POLLIN)];
         let outcome = poll(&mut descriptors, timeout);
         let [descriptor] = descriptors;
         let events = descriptor.revents().unwrap_or(PollFlags::empty());
+        self.hung_up = events.contains(PollFlags::POLLHUP);
         match outcome {
-            Ok(0) if deadline <= Instant::now() => {
-                Err(format!("the firmware said nothing for {} s", patience.as_secs_f32()))
-            }
-            Ok(_) if events.contains(PollFlags::POLLHUP) && !events.contains(PollFlags::POLLIN) => {
-                Err("the firmware closed the link".into())
-            }
+            Ok(0) if left.is_zero() => Err(format!("the firmware said nothing for {} s", patience.as_secs_f32())),
             Ok(_) | Err(Errno::EINTR) => Ok(()),
             Err(error) => Err(format!("the link to the firmware broke: {error}")),
         }
@@ -128,5 +137,55 @@ impl Stream {
     #[must_use]
     pub const fn dropped(&self) -> u32 {
         self.decoder.dropped
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SHORT: Duration = Duration::from_millis(50);
+
+    fn pair() -> (Stream, UnixStream) {
+        let (ours, theirs) = UnixStream::pair().unwrap();
+        (Stream::from_socket(ours).unwrap(), theirs)
+    }
+
+    #[test]
+    fn messages_arrive_whole_whatever_their_pieces() {
+        let (mut ours, theirs) = pair();
+        let mut theirs = Stream::from_socket(theirs).unwrap();
+        theirs.send(&Message::Ready).unwrap();
+        theirs.send(&Message::Ready).unwrap();
+        assert_eq!(ours.receive(SHORT), Ok(Message::Ready));
+        assert_eq!(ours.receive(SHORT), Ok(Message::Ready));
+        let mut buffer = [0; MAX_FRAME];
+        let frame = wire::encode(&Header { sequence: 0, auth: Auth::None }, &Message::Ready, &mut buffer).unwrap();
+        let (start, end) = frame.split_at(3);
+        theirs.send_bytes(start).unwrap();
+        assert!(ours.receive(SHORT).is_err());
+        theirs.send_bytes(end).unwrap();
+        assert_eq!(ours.receive(SHORT), Ok(Message::Ready));
+    }
+
+    #[test]
+    fn silence_and_a_closed_link_are_told_apart() {
+        let (mut ours, theirs) = pair();
+        assert_eq!(ours.receive(SHORT).unwrap_err(), "the firmware said nothing for 0.05 s");
+        drop(theirs);
+        assert_eq!(ours.receive(Duration::from_secs(60)).unwrap_err(), "the firmware closed the link");
+    }
+
+    #[test]
+    fn another_schema_is_named_and_damage_is_counted() {
+        let (mut ours, mut theirs) = pair();
+        theirs.write_all(&[3, 9, 9, 0]).unwrap();
+        assert!(ours.receive(SHORT).is_err());
+        assert_eq!(ours.dropped(), 1);
+        let content = (wire::schema() ^ 1).to_le_bytes();
+        let plain = [content, wire::crc32(&content).to_le_bytes()].concat();
+        theirs.write_all(&[&[plain.len() as u8 + 1], plain.as_slice(), &[0]].concat()).unwrap();
+        let error = ours.receive(SHORT).unwrap_err();
+        assert!(error.contains("build both from the same sources"), "{error}");
     }
 }

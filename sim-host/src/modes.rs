@@ -1,0 +1,163 @@
+//! Small motions about a wings-level glide: exact linearisation and its eigenvalues (section 9 of the equations).
+//!
+//! The moving mass is locked. `longitudinal` has the states (u, w, q, θ), `lateral` (v, p, r, φ), SI.
+
+use nalgebra::{Complex, Const, Matrix4, SMatrix, Vector3, Vector4};
+use num_dual::DualSVec64;
+use serde::Serialize;
+
+use crate::{
+    plant::{Plant, State, quaternion_from_euler},
+    real::Real,
+    trim::Glide,
+    vehicle::Vehicle,
+};
+
+/// Length that makes the eigenvectors' rates dimensionless in the paper's tables, with the nominal speed, m.
+const TABLE_LENGTH_M: f64 = 1.8;
+/// Parts of an eigenvalue below this share of the largest are rounding.
+const ROUNDING: f64 = 1e-9;
+
+type Dual = DualSVec64<8>;
+
+/// The kinematics of roll.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum RollKinematics {
+    /// φ̇ = p + r tanθ.
+    Exact,
+    /// φ̇ = p, as the paper's Table 2 was computed.
+    Paper,
+}
+
+/// Both sets of modes.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Modes {
+    /// Motion in the plane of symmetry.
+    pub longitudinal: ModeSet,
+    /// Motion out of it.
+    pub lateral: ModeSet,
+    /// Largest entry that couples the two sets, over the largest of all: 0 for a symmetric vehicle.
+    pub coupling: f64,
+}
+
+/// Linear dynamics of four states.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ModeSet {
+    /// Names of the states.
+    pub states: [&'static str; 4],
+    /// ẋ = A x, rows.
+    pub matrix: [[f64; 4]; 4],
+    /// [re, im], 1/s, by increasing real part, the positive imaginary part of a pair first.
+    pub eigenvalues: [[f64; 2]; 4],
+    /// One per eigenvalue, speeds over V0, rates times 1.8 m/V0, the largest entry 1.
+    pub eigenvectors: [[[f64; 2]; 4]; 4],
+    /// What each mode is, by its largest entries.
+    pub names: [&'static str; 4],
+}
+
+/// The modes of a glide.
+#[must_use]
+pub fn modes(vehicle: &Vehicle, glide: &Glide, roll: RollKinematics) -> Modes {
+    let jacobian = jacobian(vehicle, glide, roll);
+    let [longitudinal, lateral] = [0, 4].map(|first| jacobian.fixed_view::<4, 4>(first, first).into_owned());
+    let coupled = jacobian.fixed_view::<4, 4>(0, 4).amax().max(jacobian.fixed_view::<4, 4>(4, 0).amax());
+    let (v0, length) = (vehicle.nominal_speed_m_s, TABLE_LENGTH_M);
+    let rate = length / v0;
+    Modes {
+        longitudinal: mode_set(
+            ["u", "w", "q", "theta"],
+            &longitudinal,
+            [1.0 / v0, 1.0 / v0, rate, 1.0],
+            longitudinal_name,
+        ),
+        lateral: mode_set(["v", "p", "r", "phi"], &lateral, [1.0 / v0, rate, rate, 1.0], lateral_name),
+        coupling: coupled / jacobian.amax(),
+    }
+}
+
+/// Derivative of (u̇, ẇ, q̇, θ̇, v̇, ṗ, ṙ, φ̇) by (u, w, q, θ, v, p, r, φ).
+fn jacobian(vehicle: &Vehicle, glide: &Glide, roll: RollKinematics) -> SMatrix<f64, 8, 8> {
+    let plant = Plant::<Dual>::new(vehicle);
+    let trim = glide.state();
+    let along = |value: f64, place: usize| Dual::from_re(value).derivative(place);
+    let [u, w, q, v, p, r] =
+        [(trim.velocity_m_s.x, 0), (trim.velocity_m_s.z, 1), (0.0, 2), (0.0, 4), (0.0, 5), (0.0, 6)]
+            .map(|(x, i)| along(x, i));
+    let (theta, phi) = (along(glide.pitch_rad, 3), along(0.0, 7));
+    let state = State {
+        quaternion: quaternion_from_euler(&Vector3::new(phi, theta, Dual::constant(0.0))),
+        velocity_m_s: Vector3::new(u, v, w),
+        rate_rad_s: Vector3::new(p, q, r),
+        r_px_m: Dual::constant(glide.r_px_m),
+        ..State::at_rest(Dual::constant(glide.displaced_volume_m3))
+    };
+    let rates = plant.derivative_driven(&state, Dual::constant(0.0), &plant.still());
+    let across = q * phi.sin() + r * phi.cos();
+    let roll_rate = match roll {
+        RollKinematics::Exact => p + across * theta.sin() / theta.cos(),
+        RollKinematics::Paper => p,
+    };
+    let (dv, dw) = (rates.velocity_m_s, rates.rate_rad_s);
+    let rows = [dv.x, dv.z, dw.y, q * phi.cos() - r * phi.sin(), dv.y, dw.x, dw.z, roll_rate];
+    SMatrix::from_fn(|i, j| rows[i].eps.unwrap_generic(Const::<8>, Const::<1>)[j])
+}
+
+fn mode_set(
+    states: [&'static str; 4],
+    matrix: &Matrix4<f64>,
+    scales: [f64; 4],
+    name: fn(&[f64; 4], bool) -> &'static str,
+) -> ModeSet {
+    let mut eigenvalues: [Complex<f64>; 4] = matrix.complex_eigenvalues().into();
+    let size = eigenvalues.iter().map(|value| value.norm()).fold(0.0, f64::max);
+    // A pair has one real part, whatever rounding says.
+    eigenvalues.sort_by(|a, b| {
+        let nearly_equal = (a.re - b.re).abs() < ROUNDING * size;
+        if nearly_equal { b.im.total_cmp(&a.im) } else { a.re.total_cmp(&b.re) }
+    });
+    let eigenvectors = eigenvalues.map(|value| eigenvector(matrix, value, scales));
+    let names = std::array::from_fn(|i| {
+        let sizes: [f64; 4] = eigenvectors[i].map(|entry| entry.norm());
+        name(&sizes, eigenvalues[i].im.abs() > ROUNDING * size)
+    });
+    let pair = |value: Complex<f64>| [value.re, value.im];
+    ModeSet {
+        states,
+        matrix: matrix.transpose().into(),
+        eigenvalues: eigenvalues.map(pair),
+        eigenvectors: eigenvectors.map(|vector| vector.map(pair)),
+        names,
+    }
+}
+
+/// The direction that A − λ takes to zero: its last right singular vector, scaled, the largest entry 1.
+fn eigenvector(matrix: &Matrix4<f64>, value: Complex<f64>, scales: [f64; 4]) -> [Complex<f64>; 4] {
+    let shifted = matrix.map(|entry| Complex::new(entry, 0.0)) - Matrix4::from_diagonal_element(value);
+    let svd = shifted.svd(false, true);
+    let null = svd.v_t.map_or_else(Vector4::zeros, |v_t| v_t.row(svd.singular_values.imin()).adjoint());
+    let scaled: [Complex<f64>; 4] = std::array::from_fn(|i| null[i] * scales[i]);
+    let largest = scaled.iter().copied().fold(Complex::new(0.0, 0.0), |a, b| if b.norm() > a.norm() { b } else { a });
+    scaled.map(|entry| entry / largest)
+}
+
+/// The largest entry tells; `sizes` of u, w, q, θ.
+fn longitudinal_name([u, w, q, theta]: &[f64; 4], oscillates: bool) -> &'static str {
+    let incidence_or_pitch = w.max(*q).max(*theta);
+    match (u > &incidence_or_pitch, oscillates) {
+        (true, true) => "phugoid",
+        (true, false) => "speed",
+        (false, true) => "pitch oscillation",
+        (false, false) if q >= w && q >= theta => "pitch rate",
+        (false, false) => "pitch and angle of attack",
+    }
+}
+
+/// The largest entry tells; `sizes` of v, p, r, φ.
+fn lateral_name([v, p, r, phi]: &[f64; 4], oscillates: bool) -> &'static str {
+    let rates = p.max(*r);
+    match (oscillates, rates > v.max(*phi)) {
+        (true, _) => "roll-yaw oscillation",
+        (false, true) => "roll and yaw rate",
+        (false, false) => "roll angle and side velocity",
+    }
+}

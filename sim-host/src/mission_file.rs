@@ -30,6 +30,9 @@ pub struct MissionFile {
     pub mission: Mission,
     /// Tuning of the controller; defaults where the file says nothing.
     pub parameters: Parameters,
+    /// Its name in errors.
+    file: String,
+    text: String,
 }
 
 /// Position and heading before the first dive.
@@ -54,6 +57,8 @@ impl MissionFile {
             start: file.section("start", start),
             mission: file.section("mission", mission),
             parameters: file.optional_section("parameters", parameters).unwrap_or_default(),
+            file: source_name.into(),
+            text: text.into(),
         })
     }
 
@@ -64,6 +69,14 @@ impl MissionFile {
     pub fn load(name_or_path: &str) -> Result<Self, FileError> {
         let (text, file) = toml_file::load(name_or_path, EMBEDDED)?;
         Self::from_toml(&text, &file)
+    }
+}
+
+impl MissionFile {
+    /// What is wrong with the value of a dotted key, now that the vehicle is known.
+    #[must_use]
+    pub fn mistake(&self, dotted_key: &str, message: String) -> FileError {
+        FileError { file: self.file.clone(), place: toml_file::place_of(&self.text, dotted_key), message }
     }
 }
 

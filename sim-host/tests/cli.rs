@@ -96,7 +96,9 @@ fn a_mission_beyond_the_vehicle_is_refused_before_anything_is_written() {
         let out = folder.join("dive");
         let line = refusal(&glider(&["fly", mission.to_str().unwrap(), "--out", out.to_str().unwrap()]));
         assert!(
-            line.contains("deep.toml: `mission.dive_to_m` is 210; this vehicle and its trim table take 1 to 200"),
+            line.contains(
+                "deep.toml:12:13: `mission.dive_to_m` is 210, but this vehicle and its trim table take 1 to 200"
+            ),
             "{line}"
         );
         assert!(!out.exists());

@@ -19,6 +19,7 @@ use crate::{
     record::{Record, Sample},
     report::{self, Flight},
     table::{Envelope, describe, generate},
+    toml_file::FileError,
     whole_file,
 };
 
@@ -59,8 +60,8 @@ pub(super) fn run(args: &Args) -> Result<(), String> {
     };
     let table = TrimTable::parse(&table_bytes).and_then(|table| table.for_vehicle(vehicle.hash()));
     let table = table.map_err(|error| format!("{}: {}", table_name(args), describe(&error)))?;
-    let mut autopilot = Autopilot::new(&table, &file.mission, &file.parameters)
-        .map_err(|error| format!("{}: {}", args.mission, describe_refusal(&error)))?;
+    let mut autopilot =
+        Autopilot::new(&table, &file.mission, &file.parameters).map_err(|error| refusal(&file, &error).to_string())?;
     fs::create_dir_all(&args.out).map_err(|error| format!("{}: {error}", args.out.display()))?;
 
     let progress = Progress::new(&file.mission);
@@ -123,18 +124,19 @@ fn table_name(args: &Args) -> String {
     args.table.as_ref().map_or_else(|| "trim table".into(), |path| path.display().to_string())
 }
 
-/// Why a mission cannot be flown, in one line and in the mission file's own names and units.
-fn describe_refusal(error: &ConfigurationError) -> String {
-    match error {
+/// Why a mission cannot be flown, in the mission file's own names and units.
+fn refusal(file: &MissionFile, error: &ConfigurationError) -> FileError {
+    let (key, value, min, max) = match error {
         ConfigurationError::Mission(wrong) => {
             let (key, scale) = in_file(wrong.field);
             let [value, min, max] = [wrong.value, wrong.min, wrong.max].map(|integer| f64::from(integer) / scale);
-            format!("`mission.{key}` is {value}; this vehicle and its trim table take {min} to {max}")
+            (format!("mission.{key}"), value, min, max)
         }
         ConfigurationError::Parameter(row, value) => {
-            format!("`parameters.{}` is {value}; it goes from {} to {}", row.name, row.min, row.max)
+            (format!("parameters.{}", row.name), f64::from(*value), f64::from(row.min), f64::from(row.max))
         }
-    }
+    };
+    file.mistake(&key, format!("`{key}` is {value}, but this vehicle and its trim table take {min} to {max}"))
 }
 
 /// Key of the mission file for a field of the mission, and how many of the field's units make one of the file's.

@@ -70,6 +70,16 @@ pub fn read<T>(text: &str, file: &str, build: impl FnOnce(&mut Section<'_>) -> T
     }
 }
 
+/// Line and column of the value under a dotted key, for mistakes that show only later.
+#[must_use]
+pub fn place_of(text: &str, dotted_key: &str) -> Option<(usize, usize)> {
+    let document = Document::parse(text).ok()?;
+    let mut keys = dotted_key.split('.');
+    let first = document.as_table().get(keys.next()?)?;
+    let item = keys.try_fold(first, |item, key| item.get(key))?;
+    item.span().map(|span| place(text, span.start))
+}
+
 /// Line and column of a byte offset, from 1, columns in characters.
 fn place(text: &str, offset: usize) -> (usize, usize) {
     let before = text.get(..offset).unwrap_or(text);

@@ -13,8 +13,10 @@ use super::{
 use crate::toml_file::{self, FileError, Rule, Section};
 
 /// Vehicles that need no file: name, file it comes from, text.
-const EMBEDDED: &[(&str, &str, &str)] =
-    &[("slocum-paper", "vehicles/slocum-paper.toml", include_str!("../../vehicles/slocum-paper.toml"))];
+const EMBEDDED: &[(&str, &str, &str)] = &[
+    ("slocum-paper", "vehicles/slocum-paper.toml", include_str!("../../vehicles/slocum-paper.toml")),
+    ("seawing", "vehicles/seawing.toml", include_str!("../../vehicles/seawing.toml")),
+];
 
 /// Longest name, in characters: it is carried in the trim table.
 const NAME_CHARS: usize = 32;

@@ -9,7 +9,7 @@ use nalgebra::{Matrix3, Vector3};
 use sim_host::{
     ocean::Ocean,
     plant::{
-        Input, Particle, Plant, State, Surroundings, Unrest, Water, quaternion_from_euler, rk4_step,
+        Input, Medium, Particle, Plant, State, Surroundings, Unrest, quaternion_from_euler, rk4_step,
         rotation_from_quaternion,
     },
     vehicle::Vehicle,
@@ -53,7 +53,7 @@ struct Swinging {
     time_s: f64,
 }
 
-impl Water<f64> for Swinging {
+impl Medium<f64> for Swinging {
     fn around(&self, _: &Vector3<f64>, into_step_s: f64) -> Surroundings<f64> {
         let (sin, cos) = (0.7 * (self.time_s + into_step_s)).sin_cos();
         let along = Vector3::new(1.0, 0.5, -0.3);
@@ -108,7 +108,7 @@ struct Strain {
     gradient_per_s: Matrix3<f64>,
 }
 
-impl Water<f64> for Strain {
+impl Medium<f64> for Strain {
     fn around(&self, position_m: &Vector3<f64>, _: f64) -> Surroundings<f64> {
         let current_m_s = self.gradient_per_s * position_m;
         let unrest =

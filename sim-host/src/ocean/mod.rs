@@ -40,7 +40,7 @@ mod teos10;
 
 use nalgebra::Vector3;
 
-use crate::plant::{Surroundings, Water};
+use crate::plant::{Medium, Surroundings};
 use column::Column;
 use current::Current;
 use floor::Floor;
@@ -134,7 +134,7 @@ pub struct OceanFrom<'a> {
     time_s: f64,
 }
 
-impl Water<f64> for OceanFrom<'_> {
+impl Medium<f64> for OceanFrom<'_> {
     fn around(&self, position_m: &Vector3<f64>, into_step_s: f64) -> Surroundings<f64> {
         self.ocean.sample(position_m, self.time_s + into_step_s).around
     }

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector4;
 
-use super::{Input, Plant, State, Water};
+use super::{Input, Medium, Plant, State};
 use crate::real::Real;
 
 /// How the particle is held during a step.
@@ -24,7 +24,7 @@ pub fn rk4_step<T: Real>(
     state: &State<T>,
     particle: &Particle<T>,
     dt_s: T,
-    water: &impl Water<T>,
+    water: &impl Medium<T>,
 ) -> State<T> {
     // A particle at rest stays where it is for the whole step.
     let at_rest = state.r_px_rate_m_s.value() == 0.0 && state.mu_rate_rad_s.value() == 0.0;

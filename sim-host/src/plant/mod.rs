@@ -11,14 +11,14 @@ mod inertia;
 mod integrate;
 mod solve;
 mod surface;
-mod water;
+mod surroundings;
 
 pub use attitude::{euler_from_quaternion, quaternion_from_euler, rotation_from_quaternion};
 pub use dynamics::{Input, Reaction};
 pub use hydrodynamics::{Flow, Viscous};
 pub use inertia::Matrix8;
 pub use integrate::{Particle, rk4_step};
-pub use water::{Surroundings, Unrest, Water};
+pub use surroundings::{Medium, Surroundings, Unrest};
 
 use nalgebra::{Matrix3, Vector3, Vector4};
 

@@ -2,7 +2,8 @@
 //!
 //! `[hydrodynamics]` may leave out `area_m2`, `span_m` and `chord_m` (then the wing's), `moment_frame` (then `"body"`) and
 //! the coefficients that symmetry makes small: `lift.zero`, `lift.q`, `pitch.zero`, `side.p`, `side.r`, `roll.r`, `yaw.p`
-//! (then 0). Every other coefficient must be there.
+//! (then 0). Every other coefficient must be there. `[buoyancy]` may leave out `compressibility_per_pa`, `thermal_expansion_per_c`
+//! (then 0) and `reference_temperature_c` (then 15).
 
 use nalgebra::{Matrix3, Matrix6, Vector3};
 

@@ -39,13 +39,13 @@ pub struct Unrest<T: Real> {
 }
 
 /// Water that can be asked at every place, during one step of integration.
-pub trait Water<T: Real> {
+pub trait Medium<T: Real> {
     /// The water at a position (north, east, down, m), some seconds into the step.
     fn around(&self, position_m: &Vector3<T>, into_step_s: T) -> Surroundings<T>;
 }
 
 /// The same everywhere and always.
-impl<T: Real> Water<T> for Surroundings<T> {
+impl<T: Real> Medium<T> for Surroundings<T> {
     fn around(&self, _position_m: &Vector3<T>, _into_step_s: T) -> Surroundings<T> {
         *self
     }

@@ -1,0 +1,137 @@
+//! The controller as a whole: when it dives, when it gives up, and what nonsense cannot make it do.
+
+use super::*;
+use crate::{
+    device::{Attitude, GpsFix},
+    table::tests::file,
+};
+use heapless::Vec;
+
+fn mission() -> Mission {
+    Mission {
+        yos: 1,
+        dive_to_mm: 100_000,
+        climb_to_mm: 5_000,
+        dive_path_angle_cdeg: -2_600,
+        climb_path_angle_cdeg: 2_600,
+        dive_net_mass_g: 250,
+        climb_net_mass_g: -250,
+        headings_cdeg: Vec::from_slice(&[9_000]).unwrap(),
+        surface_time_s: 1,
+        abort_depth_mm: 110_000,
+        max_duration_s: 3_600,
+    }
+}
+
+fn well(depth_m: i32, vbd_ul: i32) -> Measurements {
+    Measurements {
+        pressure_pa: Some(depth_m.saturating_mul(9_810)),
+        attitude: Some(Attitude {
+            roll_cdeg: 0,
+            pitch_cdeg: -2_600,
+            heading_cdeg: 9_000,
+            pitch_rate_cdeg_s: 0,
+            yaw_rate_cdeg_s: 0,
+        }),
+        r_px_um: 0,
+        mu_cdeg: 0,
+        vbd_ul,
+        battery_mv: 15_000,
+        gps: Some(GpsFix { lat_e7: 590_000_000, lon_e7: 50_000_000 }),
+    }
+}
+
+fn with_autopilot(test: impl FnOnce(&mut Autopilot<'_>)) {
+    let file = file();
+    let table = TrimTable::parse(&file).unwrap();
+    test(&mut Autopilot::new(&table, &mission(), &Parameters::default()).unwrap());
+}
+
+#[test]
+fn it_dives_only_with_depth_attitude_and_position() {
+    let complete = well(0, 300_000);
+    for lacking in [
+        Measurements { pressure_pa: None, ..complete },
+        Measurements { attitude: None, ..complete },
+        Measurements { gps: None, ..complete },
+    ] {
+        with_autopilot(|autopilot| {
+            let last = (0..40).map(|tick| autopilot.step(tick, &lacking)).last().unwrap();
+            assert_eq!((last.phase, last.abort), (Phase::Surface, None), "{lacking:?}");
+        });
+    }
+    with_autopilot(|autopilot| {
+        let phases: std::vec::Vec<Phase> = (0..6).map(|tick| autopilot.step(tick, &complete).phase).collect();
+        assert_eq!(phases.iter().position(|phase| *phase == Phase::Dive), Some(4), "after one second at the surface");
+    });
+}
+
+#[test]
+fn without_fresh_depth_it_ends_the_dive_and_pumps() {
+    with_autopilot(|autopilot| {
+        for tick in 0..100 {
+            autopilot.step(tick, &well(0, 300_000));
+        }
+        let blind = Measurements { pressure_pa: None, gps: None, ..well(0, -250_000) };
+        let limit_ticks = Parameters::default().stale_depth_s.unsigned_abs() * TICK_HZ;
+        let before = (100..100 + limit_ticks).map(|tick| autopilot.step(tick, &blind)).last().unwrap();
+        assert_eq!((before.phase, before.abort), (Phase::Dive, None));
+        let after = autopilot.step(100 + limit_ticks, &blind);
+        assert_eq!((after.phase, after.abort), (Phase::Recovery, Some(Abort::StaleDepth)));
+        assert_eq!(after.vbd_rate_ul_s, 42_000);
+    });
+}
+
+/// Whatever the instruments say, rates stay within the drives', nothing overflows (tests check for it) and nothing panics.
+#[test]
+fn nonsense_from_the_instruments_never_gets_past_the_limits() {
+    let mut seed = 1_u64;
+    let mut random = move || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (seed >> 32) as u32
+    };
+    with_autopilot(|autopilot| {
+        for tick in 0..200_000_u32 {
+            let extreme = |bits: u32| match bits % 5 {
+                0 => i32::MAX,
+                1 => i32::MIN,
+                2 => 0,
+                _ => bits.rotate_left(7).cast_signed(),
+            };
+            let small = |bits: u32| extreme(bits) as i16;
+            let measurements = Measurements {
+                pressure_pa: (random() % 3 > 0).then(|| extreme(random())),
+                attitude: (random() % 3 > 0).then(|| Attitude {
+                    roll_cdeg: small(random()),
+                    pitch_cdeg: small(random()),
+                    heading_cdeg: random() as u16,
+                    pitch_rate_cdeg_s: small(random()),
+                    yaw_rate_cdeg_s: small(random()),
+                }),
+                r_px_um: extreme(random()),
+                mu_cdeg: small(random()),
+                vbd_ul: extreme(random()),
+                battery_mv: random() as u16,
+                gps: (random() % 9 == 0).then(|| GpsFix { lat_e7: extreme(random()), lon_e7: extreme(random()) }),
+            };
+            let commands = autopilot.step(tick.wrapping_mul(random() % 2), &measurements);
+            assert!(commands.r_px_rate_um_s.abs() <= 10_000, "{commands:?}");
+            assert!(commands.mu_rate_cdeg_s.abs() <= 1_500, "{commands:?}");
+            assert!(commands.vbd_rate_ul_s.abs() <= 42_000, "{commands:?}");
+            assert!(commands.target_heading_cdeg < 36_000);
+        }
+    });
+}
+
+#[test]
+fn what_cannot_be_flown_is_refused() {
+    let file = file();
+    let table = TrimTable::parse(&file).unwrap();
+    let deep = Mission { dive_to_mm: 250_000, ..mission() };
+    let unflyable = Unflyable { field: "dive_to_mm", value: 250_000, min: 1_000, max: 200_000 };
+    let refused = Autopilot::new(&table, &deep, &Parameters::default()).unwrap_err();
+    assert_eq!(refused, ConfigurationError::Mission(unflyable));
+    let mistuned = Parameters { heading_time_s: 1, ..Parameters::default() };
+    let refused = Autopilot::new(&table, &mission(), &mistuned).unwrap_err();
+    assert!(matches!(refused, ConfigurationError::Parameter(row, 1) if row.name == "heading_time_s"));
+}

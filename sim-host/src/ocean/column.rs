@@ -2,7 +2,10 @@
 
 use nalgebra::Vector3;
 
-use super::teos10::{self, Composition};
+use super::{
+    Sample,
+    teos10::{self, Composition},
+};
 use crate::plant::Surroundings;
 
 /// Spacing of the table, m. The sharpest thermoclines are some metres thick.
@@ -78,23 +81,27 @@ impl Column {
         Ok(Self::Tabulated(rows))
     }
 
-    /// Water at rest at a depth, its layers displaced downwards by `displaced_m`; and its salinity.
-    pub(super) fn at(&self, depth_m: f64, displaced_m: f64) -> (Surroundings<f64>, Option<f64>) {
+    /// Water at rest at a depth, its layers displaced downwards by `displaced_m`; above depth 0 its pressure is negative.
+    #[inline]
+    pub(super) fn at(&self, depth_m: f64, displaced_m: f64) -> Sample {
         let still = |density_kg_m3: f64, pressure_pa: f64, temperature_c: Option<f64>| Surroundings {
             density_kg_m3,
-            pressure_pa: pressure_pa.max(0.0),
+            pressure_pa,
             temperature_c,
             surface_m: 0.0,
             current_m_s: Vector3::zeros(),
             unrest: None,
         };
         match self {
-            Self::Uniform { density_kg_m3, pa_per_m } => (still(*density_kg_m3, pa_per_m * depth_m, None), None),
+            Self::Uniform { density_kg_m3, pa_per_m } => {
+                Sample { around: still(*density_kg_m3, pa_per_m * depth_m, None), salinity: None }
+            }
             Self::Tabulated(rows) => {
                 let here = between(rows, depth_m);
                 let origin = if displaced_m == 0.0 { here } else { between(rows, depth_m - displaced_m) };
                 let density_kg_m3 = origin.density_kg_m3 + here.compression_kg_m4 * displaced_m;
-                (still(density_kg_m3, here.pressure_pa, Some(origin.temperature_c)), Some(origin.salinity))
+                let around = still(density_kg_m3, here.pressure_pa, Some(origin.temperature_c));
+                Sample { around, salinity: Some(origin.salinity) }
             }
         }
     }
@@ -117,7 +124,8 @@ impl Column {
 
 /// Linear between the rows, and on from the last two.
 fn between(rows: &[Row], depth_m: f64) -> Row {
-    let place = (depth_m / STEP_M).max(0.0);
+    let place = depth_m / STEP_M;
+    // A cast that saturates: above depth 0 the first two rows go on.
     let index = (place as usize).min(rows.len().saturating_sub(2));
     let share = place - index as f64;
     let [a, b] = [rows[index], rows[index + 1]];
@@ -159,22 +167,22 @@ mod tests {
     fn pressure_is_the_weight_of_the_water_above() {
         let column = column();
         for depth_m in [0.5, 33.25, 420.0, 2_000.0] {
-            let at = |depth_m: f64| column.at(depth_m, 0.0).0;
+            let at = |depth_m: f64| column.at(depth_m, 0.0).around;
             let slope = (at(depth_m + 0.25).pressure_pa - at(depth_m - 0.25).pressure_pa) / 0.5;
             // Linear pressure over a metre against linear density: half a metre of gradient, at most 0.2 kg/m⁴.
             assert!((slope / (9.81 * at(depth_m).density_kg_m3) - 1.0).abs() < 2e-4, "{depth_m} m");
         }
-        let (deep, salinity) = column.at(5_000.0, 0.0);
+        let Sample { around: deep, salinity } = column.at(5_000.0, 0.0);
         assert_eq!((deep.temperature_c, salinity), (Some(5.0), Some(34.9)));
     }
 
     #[test]
     fn displaced_water_keeps_its_salt_and_is_compressed() {
         let column = column();
-        let ((here, _), (moved, salinity)) = (column.at(700.0, 0.0), column.at(700.0, 30.0));
-        assert_eq!(salinity, column.at(670.0, 0.0).1);
+        let (here, moved) = (column.at(700.0, 0.0), column.at(700.0, 30.0));
+        assert_eq!(moved.salinity, column.at(670.0, 0.0).salinity);
         // From 30 m above: warmer, so lighter than what was here, yet by less than the 0.14 kg/m³ that 30 m of pressure give.
-        let change = moved.density_kg_m3 - here.density_kg_m3;
+        let change = moved.around.density_kg_m3 - here.around.density_kg_m3;
         assert!((-0.14..0.0).contains(&change), "{change}");
     }
 }

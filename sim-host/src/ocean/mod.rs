@@ -73,10 +73,21 @@ pub struct Sample {
 impl Ocean {
     /// The water at a position (north, east, down, m) and time since the start, s.
     #[must_use]
+    #[inline]
     pub fn sample(&self, position_m: &Vector3<f64>, time_s: f64) -> Sample {
+        let mut here = if self.current.is_none() && self.internal_wave.is_none() && self.swell.is_none() {
+            self.column.at(position_m.z, 0.0)
+        } else {
+            self.moving(position_m, time_s)
+        };
+        here.around.pressure_pa = here.around.pressure_pa.max(0.0);
+        here
+    }
+
+    fn moving(&self, position_m: &Vector3<f64>, time_s: f64) -> Sample {
         let wave = self.internal_wave.as_ref().map(|wave| wave.at(position_m, time_s));
-        let (mut around, salinity) =
-            self.column.at(position_m.z, wave.as_ref().map_or(0.0, |(_, displacement_m)| *displacement_m));
+        let displaced_m = wave.as_ref().map_or(0.0, |(_, displaced_m)| *displaced_m);
+        let Sample { mut around, salinity } = self.column.at(position_m.z, displaced_m);
         let mut motion = wave.map(|(motion, _)| motion);
         if let Some(swell) = &self.swell {
             let orbit = swell.at(position_m, time_s);
@@ -104,12 +115,6 @@ impl Ocean {
     #[must_use]
     pub fn floor_depth_m(&self, north_m: f64, east_m: f64) -> Option<f64> {
         self.floor.as_ref().map(|floor| floor.depth_m(north_m, east_m))
-    }
-
-    /// Height of the surface above depth 0, m.
-    #[must_use]
-    pub fn surface_m(&self, position_m: &Vector3<f64>, time_s: f64) -> f64 {
-        self.swell.as_ref().map_or(0.0, |swell| swell.at(position_m, time_s).surface_m)
     }
 
     /// Density in which a vehicle that dives to some depth is made neutral, kg/m³.

@@ -10,6 +10,7 @@ use sim_host::{
     flight::{FlyingVehicle, Summary, fly},
     link::FirmwarePilot,
     mission_file::MissionFile,
+    ocean::Ocean,
     pilot::Pilot,
     vehicle::Vehicle,
 };
@@ -69,7 +70,8 @@ impl Dive {
     /// What the pilot said when it failed to answer.
     pub fn fly(&self, pilot: &mut dyn Pilot) -> Result<Summary, String> {
         let flying = FlyingVehicle::new(&self.vehicle)?;
-        fly(&flying, &self.file.mission, &self.file.start, SEED, pilot, &mut |_| {})
+        let ocean = Ocean::still(&self.vehicle.water);
+        fly(&flying, &ocean, &self.file.mission, &self.file.start, SEED, pilot, &mut |_| {})
     }
 }
 

@@ -100,7 +100,7 @@ pub fn eval(vehicle: &Vehicle, request: &Request) -> Answer {
         displaced_volume_m3: request.displaced_volume_m3,
     };
     let RequestInput { u_px_n, u_mu_nm, u_b_m3_s } = request.input;
-    let rates = plant.derivative(&state, &Input { u_px_n, u_mu_nm, u_b_m3_s });
+    let rates = plant.derivative(&state, &Input { u_px_n, u_mu_nm, u_b_m3_s }, &plant.still());
     let viscous = plant.viscous_in(&state);
     Answer {
         mass_matrix: plant.mass_matrix(state.r_px_m, state.mu_rad).transpose().into(),

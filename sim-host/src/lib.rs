@@ -20,6 +20,10 @@
 //! | end stops and brakes hold, moves cost what fielded ones cost | `tests/mass_drive.rs` | half a sub-step's way; 2 to 5 and 2 to 6 J |
 //! | fourth order on a whole dive and climb | `tests/integration.rs` | observed order 3.7 to 4.5; 0.8 mm at the flight's step |
 //! | an adaptive eighth-order integrator of a library | `tests/integration.rs` | 1e-8 |
+//! | a uniform current shifts the track and nothing else | `tests/moving_water.rs` | the same bits; 1e-9 m of track |
+//! | what weighs like water is carried like water: accelerating current, swell, shear | `tests/moving_water.rs` | 1e-13 m/s: rounding |
+//! | energy in a steady irrotational flow, lopsided | `tests/moving_water.rs` | 1e-7 relative: fourth order at 5 ms |
+//! | TEOS-10's published check values | `ocean::teos10` | 1e-9 kg/m³; 2e-5 °C of Θ: a fit's |
 //! | the paper's trim, Tables 1 and 2, eqs (14)–(16) = 3×3 system = exact helix | `tests/trim.rs`, `tests/stability.rs` | printed digits; 1e-9 |
 //! | electrical energy of the pump over p ΔV | `tests/devices.rs` | fielded efficiencies; 1e-9 for p ΔV itself |
 //! | Seawing's published spiral | `tests/seawing.rs` | 2 %: published digits, another drag law |
@@ -33,6 +37,7 @@ pub mod helix;
 pub mod link;
 pub mod mission_file;
 pub mod modes;
+pub mod ocean;
 pub mod pilot;
 pub mod plant;
 pub mod real;

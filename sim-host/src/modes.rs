@@ -91,7 +91,7 @@ fn jacobian(vehicle: &Vehicle, glide: &Glide, roll: RollKinematics) -> SMatrix<f
         r_px_m: Dual::constant(glide.r_px_m),
         ..State::at_rest(Dual::constant(glide.displaced_volume_m3))
     };
-    let rates = plant.derivative_driven(&state, Dual::constant(0.0));
+    let rates = plant.derivative_driven(&state, Dual::constant(0.0), &plant.still());
     let across = q * phi.sin() + r * phi.cos();
     let roll_rate = match roll {
         RollKinematics::Exact => p + across * theta.sin() / theta.cos(),

@@ -31,7 +31,7 @@ fn linear_and_angular_impulse_are_kept_without_forces() {
         let (mut state, _) = random_states(&plant, 1)[0];
         let before = impulses(&plant, &state);
         for _ in 0..5_000 {
-            state = rk4_step(&plant, &state, &Particle::Free(Input::none()), 1e-3);
+            state = rk4_step(&plant, &state, &Particle::Free(Input::none()), 1e-3, &plant.still());
         }
         let after = impulses(&plant, &state);
         assert!((after.0 - before.0).norm() < 1e-9 * before.0.norm(), "linear: {before:?} to {after:?}");
@@ -49,7 +49,7 @@ fn gravity_adds_impulse_downwards_only() {
     let weight_n = plant.net_mass_kg(state.displaced_volume_m3) * vehicle.water.gravity_m_s2;
     let before = impulses(&plant, &state);
     for _ in 0..2_000 {
-        state = rk4_step(&plant, &state, &Particle::Free(Input::none()), 1e-3);
+        state = rk4_step(&plant, &state, &Particle::Free(Input::none()), 1e-3, &plant.still());
     }
     let after = impulses(&plant, &state);
     let expected = Vector3::new(0.0, 0.0, 2.0 * weight_n);
@@ -79,7 +79,7 @@ fn energy_changes_by_the_work_that_is_done() {
         let plant = Plant::<f64>::new(&vehicle);
         let exact = Plant::<Dual>::new(&vehicle);
         for (state, input) in random_states(&plant, 200) {
-            let moving = as_dual(&state, &plant.derivative(&state, &input));
+            let moving = as_dual(&state, &plant.derivative(&state, &input, &plant.still()));
             let energy = exact.kinetic_energy_j(&moving) + exact.potential_energy_j(&moving);
             let rate_w = energy.eps.unwrap_generic(nalgebra::Const::<1>, nalgebra::Const::<1>)[0];
             let viscous = plant.viscous_in(&state);
@@ -115,7 +115,9 @@ fn a_mirrored_state_moves_as_a_mirror_image() {
     };
     for (state, input) in random_states(&plant, 100) {
         let reversed = Input { u_mu_nm: -input.u_mu_nm, ..input };
-        let (one, other) = (plant.derivative(&state, &input), plant.derivative(&mirrored(&state), &reversed));
+        let water = plant.still();
+        let (one, other) =
+            (plant.derivative(&state, &input, &water), plant.derivative(&mirrored(&state), &reversed, &water));
         let size = one.mu_rate_rad_s.abs().max(1.0);
         assert!((across * one.velocity_m_s - other.velocity_m_s).amax() < 1e-12 * size);
         assert!((across * one.rate_rad_s + other.rate_rad_s).amax() < 1e-12 * size);
@@ -132,6 +134,7 @@ fn strange_flow_is_finite_and_its_energy_balances() {
     vehicle.added_mass.mass_kg *= 10.0;
     vehicle.water.gravity_m_s2 = 0.0;
     let plant = Plant::<f64>::new(&vehicle);
+    let particle = Particle::Driven { u_b_m3_s: 0.0 };
     let directions =
         [[0.0; 3], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [-0.3, 0.0, -1.0], [1e-12, -1e-12, 1e-12]];
     for velocity in directions {
@@ -143,8 +146,8 @@ fn strange_flow_is_finite_and_its_energy_balances() {
             viscous.force_n.dot(&state.velocity_m_s) + viscous.moment_nm.dot(&state.rate_rad_s)
         };
         for _ in 0..2_000 {
-            let middle = rk4_step(&plant, &state, &Particle::Driven { u_b_m3_s: 0.0 }, 0.5 * dt_s);
-            let next = rk4_step(&plant, &middle, &Particle::Driven { u_b_m3_s: 0.0 }, 0.5 * dt_s);
+            let middle = rk4_step(&plant, &state, &particle, 0.5 * dt_s, &plant.still());
+            let next = rk4_step(&plant, &middle, &particle, 0.5 * dt_s, &plant.still());
             // Simpson's rule.
             work_j += dt_s / 6.0 * (power_w(&state) + 4.0 * power_w(&middle) + power_w(&next));
             state = next;
@@ -158,6 +161,7 @@ fn strange_flow_is_finite_and_its_energy_balances() {
     }
     let hot = Dual::constant(0.0).derivative(0);
     let still = State { velocity_m_s: Vector3::new(hot, hot, hot), ..State::at_rest(Dual::constant(0.05)) };
-    let rates = Plant::<Dual>::new(&vehicle).derivative(&still, &Input::none());
+    let plant = Plant::<Dual>::new(&vehicle);
+    let rates = plant.derivative(&still, &Input::none(), &plant.still());
     assert!(rates.velocity_m_s.iter().all(|rate| rate.re.is_finite()), "derivatives at rest exist");
 }

@@ -4,6 +4,7 @@ use shared::{autopilot::Autopilot, mission::Phase, table::TrimTable};
 use sim_host::{
     flight::{FlyingVehicle, Outcome, Summary, fly},
     mission_file::MissionFile,
+    ocean::Ocean,
     plant::euler_from_quaternion,
     table::{Envelope, generate},
     vehicle::Vehicle,
@@ -26,17 +27,18 @@ fn fly_mission(seed: u64, change: impl FnOnce(&mut MissionFile)) -> (Summary, Ve
     let mut autopilot = Autopilot::new(&table, &file.mission, &file.parameters).unwrap();
     let flying = FlyingVehicle::new(&vehicle).unwrap();
     let mut truth = Vec::new();
-    let summary = fly(&flying, &file.mission, &file.start, seed, &mut autopilot, &mut |tick| {
-        let heading_deg = euler_from_quaternion(&tick.state.quaternion).z.to_degrees();
-        let error = f64::from(tick.commands.target_heading_cdeg) / 100.0 - heading_deg;
-        truth.push(Truth {
-            yo: tick.commands.yo,
-            phase: tick.commands.phase,
-            depth_m: tick.state.position_m.z,
-            heading_error_deg: (error + 180.0).rem_euclid(360.0) - 180.0,
-        });
-    })
-    .unwrap();
+    let summary =
+        fly(&flying, &Ocean::still(&vehicle.water), &file.mission, &file.start, seed, &mut autopilot, &mut |tick| {
+            let heading_deg = euler_from_quaternion(&tick.state.quaternion).z.to_degrees();
+            let error = f64::from(tick.commands.target_heading_cdeg) / 100.0 - heading_deg;
+            truth.push(Truth {
+                yo: tick.commands.yo,
+                phase: tick.commands.phase,
+                depth_m: tick.state.position_m.z,
+                heading_error_deg: (error + 180.0).rem_euclid(360.0) - 180.0,
+            });
+        })
+        .unwrap();
     (summary, truth)
 }
 
@@ -80,7 +82,7 @@ fn measurements_replay_to_the_same_commands() {
     let autopilot = || Autopilot::new(&table, &file.mission, &file.parameters).unwrap();
     let flying = FlyingVehicle::new(&vehicle).unwrap();
     let mut log = Vec::new();
-    fly(&flying, &file.mission, &file.start, 1, &mut autopilot(), &mut |tick| {
+    fly(&flying, &Ocean::still(&vehicle.water), &file.mission, &file.start, 1, &mut autopilot(), &mut |tick| {
         log.push((*tick.measurements, *tick.commands))
     })
     .unwrap();

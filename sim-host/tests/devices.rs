@@ -4,6 +4,7 @@ use shared::{autopilot::Autopilot, table::TrimTable};
 use sim_host::{
     flight::{CompassErrors, Dropout, Faults, FlyingVehicle, Instrument, Outcome, Seep, Summary, fly},
     mission_file::MissionFile,
+    ocean::Ocean,
     table::{Envelope, generate},
     vehicle::{EngineKind, Vehicle},
 };
@@ -23,7 +24,7 @@ fn fly_with(
     let mut autopilot = Autopilot::new(&table, &file.mission, &file.parameters).unwrap();
     let mut flying = FlyingVehicle::new(&vehicle).unwrap();
     devices(&mut flying);
-    fly(&flying, &file.mission, &file.start, seed, &mut autopilot, &mut observe).unwrap()
+    fly(&flying, &Ocean::still(&vehicle.water), &file.mission, &file.start, seed, &mut autopilot, &mut observe).unwrap()
 }
 
 #[test]

@@ -9,6 +9,7 @@ use shared::{autopilot::Autopilot, table::TrimTable};
 use sim_host::{
     flight::{FlyingVehicle, TICK_S, fly},
     mission_file::MissionFile,
+    ocean::Ocean,
     plant::{Particle, Plant, State, quaternion_from_euler, rk4_step},
     table::{Envelope, generate},
     vehicle::Vehicle,
@@ -31,7 +32,8 @@ fn dive() -> (Vehicle, State<f64>, Vec<Held>) {
     let mut autopilot = Autopilot::new(&table, &file.mission, &file.parameters).unwrap();
     let mut states = Vec::new();
     let flying = FlyingVehicle::new(&vehicle).unwrap();
-    fly(&flying, &file.mission, &file.start, 1, &mut autopilot, &mut |tick| states.push(*tick.state)).unwrap();
+    let ocean = Ocean::still(&vehicle.water);
+    fly(&flying, &ocean, &file.mission, &file.start, 1, &mut autopilot, &mut |tick| states.push(*tick.state)).unwrap();
     let begin = states.iter().position(|state| state.position_m.z > 3.0).unwrap();
     let length = states[begin..].iter().position(|state| state.position_m.z < 2.5).unwrap();
     let held = states[begin..begin + length]
@@ -50,7 +52,7 @@ fn end_of(plant: &Plant<f64>, start: &State<f64>, motors: &[Held], steps: u32) -
     motors.iter().fold(*start, |state, held| {
         let state = plant.with_particle_rates(&state, held.r_px_m_s, held.mu_rad_s);
         let particle = Particle::Driven { u_b_m3_s: held.volume_m3_s };
-        (0..steps).fold(state, |state, _| rk4_step(plant, &state, &particle, TICK_S / f64::from(steps)))
+        (0..steps).fold(state, |state, _| rk4_step(plant, &state, &particle, TICK_S / f64::from(steps), &plant.still()))
     })
 }
 
@@ -75,7 +77,7 @@ struct Driven<'a> {
 
 impl ODE<f64, [f64; 18]> for Driven<'_> {
     fn diff(&self, _time_s: f64, y: &[f64; 18], rates: &mut [f64; 18]) {
-        *rates = flat(&self.plant.derivative_driven(&from_flat(y), self.u_b_m3_s));
+        *rates = flat(&self.plant.derivative_driven(&from_flat(y), self.u_b_m3_s, &self.plant.still()));
     }
 }
 
@@ -133,7 +135,8 @@ fn a_librarys_adaptive_integrator_agrees() {
             ..State::at_rest(plant.displaced_volume_m3(0.2))
         };
         let u_b_m3_s = 2e-5;
-        let ours = (0..4_000).fold(start, |state, _| rk4_step(&plant, &state, &Particle::Driven { u_b_m3_s }, 5e-3));
+        let particle = Particle::Driven { u_b_m3_s };
+        let ours = (0..4_000).fold(start, |state, _| rk4_step(&plant, &state, &particle, 5e-3, &plant.still()));
         let solution = IVP::ode(&Driven { plant: &plant, u_b_m3_s }, 0.0, 20.0, flat(&start))
             .method(ExplicitRungeKutta::dop853().rtol(1e-12).atol(1e-12))
             .solve()

@@ -149,7 +149,7 @@ fn the_plant_obeys_lagranges_equations_at_random_states() {
         let mut worst = 0.0_f64;
         for (state, input) in random_states(&plant, 200) {
             let reference = by_lagrange(&vehicle, &plant, &state, &input);
-            let rates = plant.derivative(&state, &input);
+            let rates = plant.derivative(&state, &input, &plant.still());
             let (v, w) = (rates.velocity_m_s, rates.rate_rad_s);
             let ours = Eight::from([v.x, v.y, v.z, w.x, w.y, w.z, rates.r_px_rate_m_s, rates.mu_rate_rad_s]);
             worst = worst.max((ours - reference).amax() / reference.amax().max(1.0));

@@ -8,6 +8,7 @@ use shared::{
 use sim_host::{
     flight::{EnergyUsed, FlyingVehicle, Outcome, Summary, TICK_S, fly},
     mission_file::MissionFile,
+    ocean::Ocean,
     pilot::Pilot,
     plant::State,
     table::{Envelope, generate},
@@ -60,7 +61,7 @@ fn fly_under(vehicle: &Vehicle, pilot: &mut dyn Pilot) -> (Result<Summary, Strin
     let file = MissionFile::load("default").unwrap();
     let flying = FlyingVehicle::new(vehicle).unwrap();
     let mut trace = Trace::new();
-    let summary = fly(&flying, &file.mission, &file.start, 1, pilot, &mut |tick| {
+    let summary = fly(&flying, &Ocean::still(&vehicle.water), &file.mission, &file.start, 1, pilot, &mut |tick| {
         trace.push((*tick.commands, *tick.state, *tick.energy));
     });
     (summary, trace)

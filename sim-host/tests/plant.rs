@@ -68,7 +68,7 @@ fn kinetic_energy_is_kept_while_tumbling_with_the_mass_moving() {
         let (mut drift, mut travel_m, mut swing_rad) = (0.0_f64, 0.0_f64, 0.0_f64);
         // The free mass is flung out and spins at some 20 rad/s: the step is short for the fourth-order error to stay small.
         for _ in 0..20_000 {
-            state = rk4_step(&plant, &state, &Particle::Free(Input::none()), 5e-4);
+            state = rk4_step(&plant, &state, &Particle::Free(Input::none()), 5e-4, &plant.still());
             drift = drift.max((plant.kinetic_energy_j(&state) / before - 1.0).abs());
             travel_m = travel_m.max((state.r_px_m - 0.1).abs());
             swing_rad = swing_rad.max((state.mu_rad - 0.6).abs());
@@ -95,9 +95,10 @@ fn the_energy_is_half_the_velocity_times_the_mass_matrix_times_the_velocity() {
 fn six_and_eight_degrees_of_freedom_agree_under_the_drives_reaction() {
     let plant = Plant::<f64>::new(&lopsided());
     let state = tumbling(&plant);
-    let reaction = plant.reaction(&state);
+    let reaction = plant.reaction(&state, &plant.still());
     let input = Input { u_px_n: reaction.u_px_n, u_mu_nm: reaction.u_mu_nm, u_b_m3_s: 0.0 };
-    let (free, driven) = (plant.derivative(&state, &input), plant.derivative_driven(&state, 0.0));
+    let (free, driven) =
+        (plant.derivative(&state, &input, &plant.still()), plant.derivative_driven(&state, 0.0, &plant.still()));
     // Accelerations are of order 10; rounding through an 8×8 solve leaves 1e-12.
     assert!((free.velocity_m_s - driven.velocity_m_s).amax() < 1e-11);
     assert!((free.rate_rad_s - driven.rate_rad_s).amax() < 1e-11);
@@ -118,6 +119,6 @@ fn starting_a_drive_keeps_the_momentum_of_the_whole() {
 fn at_rest_and_neutral_nothing_is_not_a_number() {
     let plant = Plant::<f64>::new(&slocum());
     let state = State::at_rest(plant.displaced_volume_m3(0.0));
-    let rates = plant.derivative(&state, &Input::none());
+    let rates = plant.derivative(&state, &Input::none(), &plant.still());
     assert!(rates.velocity_m_s.iter().chain(rates.rate_rad_s.iter()).all(|rate| rate.is_finite()));
 }

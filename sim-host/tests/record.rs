@@ -17,6 +17,8 @@ use shared::{
 use sim_host::{
     flight::EnergyUsed,
     mission_file::Start,
+    ocean,
+    plant::Surroundings,
     record::{COLUMNS, Record, Sample, Truth, Value},
     vehicle::Water,
 };
@@ -25,6 +27,20 @@ fn record() -> Record {
     let start = Start { latitude_deg: 59.0, longitude_deg: 179.999, heading_deg: 0.0 };
     let water = Water { density_kg_m3: 1025.0, gravity_m_s2: 9.81 };
     Record { start, water, samples: (0..40).map(sample).collect() }
+}
+
+/// With temperature and salinity on even ticks.
+fn water(tick: u32) -> ocean::Sample {
+    let even = tick.is_multiple_of(2);
+    let around = Surroundings {
+        density_kg_m3: 1027.0 + f64::from(tick),
+        pressure_pa: 1e5,
+        temperature_c: even.then_some(7.5),
+        surface_m: 0.0,
+        current_m_s: Vector3::new(0.1, -0.2, 1e-3 * f64::from(tick)),
+        unrest: None,
+    };
+    ocean::Sample { around, salinity: even.then_some(35.1) }
 }
 
 /// Something else in every field, nothing where there may be nothing.
@@ -63,6 +79,7 @@ fn sample(tick: u32) -> Sample {
             euler_rad: Vector3::new(0.1, -0.4, 3.0),
             velocity_m_s: Vector3::new(0.7, if tick == 7 { f64::NAN } else { 0.01 }, 0.02),
             ground_velocity_m_s: Vector3::new(0.6, 0.1, 0.3),
+            water: water(tick),
             rate_rad_s: Vector3::new(1e-20, 0.0, -1e300),
             r_px_m: 0.191_234_567_890_123,
             mu_rad: 0.5,

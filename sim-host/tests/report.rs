@@ -10,6 +10,7 @@ use shared::{
 use sim_host::{
     flight::{EnergyUsed, NorthEast, Outcome, Summary, Surfacing},
     mission_file::MissionFile,
+    ocean::Ocean,
     record::{Record, Sample, Truth},
     report::{
         self, Flight,
@@ -62,6 +63,7 @@ fn sample(tick: u32) -> Sample {
             euler_rad: Vector3::new(0.0, -0.42, heading_deg.to_radians()),
             velocity_m_s: Vector3::new(0.5, 0.0, 0.02),
             ground_velocity_m_s: Vector3::new(0.0, 0.5, 0.2),
+            water: Ocean::still(&Vehicle::load("slocum-paper").unwrap().water).sample(&Vector3::zeros(), 0.0),
             rate_rad_s: Vector3::zeros(),
             r_px_m: 0.19,
             mu_rad: 0.0,
@@ -80,6 +82,7 @@ fn record(ticks: u32) -> Record {
 fn summary(record: &Record) -> Summary {
     Summary {
         outcome: Outcome::Completed,
+        loss: None,
         duration_s: 600.0,
         max_depth_m: 40.0,
         ticks: 2_400,

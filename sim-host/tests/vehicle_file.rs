@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "in a test a panic is the report")]
 
-use sim_host::vehicle::Vehicle;
+use sim_host::vehicle::{Elasticity, Vehicle};
 
 const SLOCUM: &str = include_str!("../vehicles/slocum-paper.toml");
 
@@ -209,6 +209,19 @@ fn reference_lengths_default_to_the_wings() {
     assert!((hydrodynamics.chord_m - 0.116_883).abs() < 1e-6);
     let text = with("moment_frame", "area_m2 = 0.2\nmoment_frame");
     assert_eq!(Vehicle::from_toml(&text, "v.toml").unwrap().hydrodynamics.area_m2, 0.2);
+}
+
+#[test]
+fn a_hull_is_rigid_unless_the_file_says_how_it_gives_way() {
+    let elasticity =
+        |text: &str| Vehicle::from_toml(text, "v.toml").map(|vehicle| vehicle.buoyancy.unwrap().elasticity);
+    let rigid = Elasticity { reference_temperature_c: 15.0, ..Elasticity::default() };
+    assert_eq!(elasticity(SLOCUM), Ok(rigid));
+    let text = with("idle_power_w = 5", "compressibility_per_pa = 5e-10\nidle_power_w = 5");
+    assert_eq!(elasticity(&text), Ok(Elasticity { compressibility_per_pa: 5e-10, ..rigid }));
+    // Per decibar by mistake.
+    let error = elasticity(&with("idle_power_w = 5", "compressibility_per_pa = 4.2e-6\nidle_power_w = 5")).unwrap_err();
+    assert!(error.message.ends_with("must be a number from 0 to 0.00000001"), "{error}");
 }
 
 #[test]

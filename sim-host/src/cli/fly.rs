@@ -15,6 +15,7 @@ use super::progress::Progress;
 use crate::{
     flight::{FlyingVehicle, Summary, fly},
     mission_file::MissionFile,
+    ocean::Ocean,
     record::{Record, Sample},
     report::{self, Flight},
     table::{Envelope, describe, generate},
@@ -30,6 +31,10 @@ pub(super) struct Args {
     /// Path of a vehicle file, or the name of an embedded vehicle (default: the mission's)
     #[arg(long, value_name = "VEHICLE")]
     vehicle: Option<String>,
+    /// Path of an environment file or of a CTD cast (.csv), or the name of an embedded environment: still, tropical,
+    /// temperate, polar, baltic
+    #[arg(long, value_name = "ENVIRONMENT", default_value = "still")]
+    environment: String,
     /// Fly with this trim table instead of one made for the vehicle now
     #[arg(long, value_name = "FILE")]
     table: Option<PathBuf>,
@@ -48,6 +53,7 @@ pub(super) fn run(args: &Args) -> Result<(), String> {
     let file = MissionFile::load(&args.mission).map_err(|error| error.to_string())?;
     let vehicle = super::load_vehicle(args.vehicle.as_ref().unwrap_or(&file.vehicle))?;
     let flying = FlyingVehicle::new(&vehicle)?;
+    let ocean = Ocean::load(&args.environment, &vehicle.water).map_err(|error| error.to_string())?;
     let table_bytes = match &args.table {
         Some(path) => fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?,
         None => generate(&vehicle, &Envelope::default())?,
@@ -60,7 +66,7 @@ pub(super) fn run(args: &Args) -> Result<(), String> {
 
     let progress = Progress::new(&file.mission);
     let mut record = Record { start: file.start, water: vehicle.water.clone(), samples: Vec::new() };
-    let summary = fly(&flying, &file.mission, &file.start, args.seed, &mut autopilot, &mut |tick| {
+    let summary = fly(&flying, &ocean, &file.mission, &file.start, args.seed, &mut autopilot, &mut |tick| {
         progress.show(tick);
         record.samples.push(Sample::from(tick));
     })?;
@@ -85,10 +91,12 @@ fn write_folder(out: &Path, flight: &Flight<'_>) -> Result<(), String> {
 
 fn describe_flight(args: &Args, summary: &Summary) -> String {
     let energy = &summary.energy_j;
-    let aborts = if summary.aborts.is_empty() { String::new() } else { format!(" ({})", summary.aborts.join(", ")) };
+    let loss = summary.loss.map(|loss| format!("{loss:?}"));
+    let reasons: Vec<_> = summary.aborts.iter().cloned().chain(loss).collect();
+    let reasons = if reasons.is_empty() { String::new() } else { format!(" ({})", reasons.join(", ")) };
     let mut lines = vec![
         format!(
-            "{:?}{aborts} after {:.1} min, {:.1} m deep",
+            "{:?}{reasons} after {:.1} min, {:.1} m deep",
             summary.outcome,
             summary.duration_s / 60.0,
             summary.max_depth_m

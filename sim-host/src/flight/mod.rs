@@ -10,16 +10,17 @@ pub use actuators::EnergyUsed;
 pub use battery::Cells;
 pub use faults::{Dropout, Faults, Instrument, Seep};
 pub use sensors::{CompassErrors, PressureErrors, SensorErrors};
-pub use summary::{NorthEast, Outcome, Summary, Surfacing, TraceHash};
+pub use summary::{Loss, NorthEast, Outcome, Summary, Surfacing, TraceHash};
 
 use nalgebra::Vector3;
 use shared::{
-    device::{Commands, Measurements, TICK_HZ},
+    device::{Commands, MM_PER_M, Measurements, TICK_HZ},
     mission::{Mission, Phase},
 };
 
 use crate::{
     mission_file::Start,
+    ocean::{self, Ocean},
     pilot::Pilot,
     plant::{Particle, Plant, State, quaternion_from_euler, rk4_step},
     vehicle::{Buoyancy, Energy, Limits, Vehicle},
@@ -32,6 +33,10 @@ use summary::Log;
 pub const TICK_S: f64 = 1.0 / TICK_HZ as f64;
 /// Integration steps per tick: fourth order at 0.25 s is 0.8 mm off after a whole dive (`tests/integration.rs`).
 const STEPS_PER_TICK: u32 = 1;
+/// Duration of an integration step, s.
+const STEP_S: f64 = TICK_S / STEPS_PER_TICK as f64;
+/// From the launch to the start of the mission, s.
+const SETTLING_S: u32 = 60;
 /// Time at the surface, mission over, for the position to be fixed, s.
 const LINGER_S: u32 = 60;
 /// A vehicle that is not back this long after its mission's time is up counts as lost, s.
@@ -48,6 +53,8 @@ pub struct Tick<'a> {
     pub commands: &'a Commands,
     /// What is.
     pub state: &'a State<f64>,
+    /// The water at the centre of buoyancy.
+    pub water: &'a ocean::Sample,
     /// Electrical energy used so far.
     pub energy: &'a EnergyUsed,
 }
@@ -92,10 +99,15 @@ impl<'a> FlyingVehicle<'a> {
 
 /// Flies a mission from the surface back to the surface; `observe` sees every tick.
 ///
+/// The vehicle is ballasted for the ocean: it is neutral, its buoyancy device at zero, in water of
+/// [`Ocean::ballast_density_kg_m3`]. This changes its displaced volume, not its mass. The controller is not told: it takes pressure
+/// for depth by the density of the vehicle file.
+///
 /// # Errors
 /// What the pilot said when it failed to answer.
 pub fn fly(
     flying: &FlyingVehicle<'_>,
+    ocean: &Ocean,
     mission: &Mission,
     start: &Start,
     seed: u64,
@@ -104,45 +116,74 @@ pub fn fly(
 ) -> Result<Summary, String> {
     let began = std::time::Instant::now();
     let plant = Plant::<f64>::new(flying.vehicle).below_surface(&flying.vehicle.hull);
-    let mut state = afloat(flying, &plant, start);
+    let ballast_density_kg_m3 = ocean.ballast_density_kg_m3(f64::from(mission.dive_to_mm) / f64::from(MM_PER_M));
+    let neutral_volume_m3 = flying.vehicle.mass_kg() / ballast_density_kg_m3;
+    let mut state = afloat(flying, ocean, &plant, start, neutral_volume_m3);
     let mut sensors = Sensors::new(flying, start, seed);
-    let mut actuators = Actuators::new(flying);
+    let mut actuators = Actuators::new(flying, neutral_volume_m3);
     let mut log = Log::new();
     let last_tick = mission.max_duration_s.saturating_add(LOST_AFTER_S).saturating_mul(TICK_HZ);
-    let mut outcome = Outcome::Lost;
+    let mut outcome = Err(Loss::Overdue);
     for tick in 0..=last_tick {
-        let measurements = sensors.measure(&state, &actuators);
+        let time_s = f64::from(tick) * TICK_S;
+        let here = ocean.sample(&state.position_m, time_s);
+        let measurements = sensors.measure(&state, &here, &actuators);
         let commands = pilot.step(tick, &measurements)?;
-        let shown =
-            Tick { tick, measurements: &measurements, commands: &commands, state: &state, energy: &actuators.used };
+        let shown = Tick {
+            tick,
+            measurements: &measurements,
+            commands: &commands,
+            state: &state,
+            water: &here,
+            energy: &actuators.used,
+        };
         log.take(&shown);
         observe(&shown);
-        if state.position_m.z > flying.limits.crush_depth_m {
+        if let Some(loss) = lost(flying, ocean, &state.position_m) {
+            outcome = Err(loss);
             break;
         }
-        if let Some(ended) = log.ended(sensors.antenna_is_clear(&state)) {
-            outcome = ended;
+        if let Some(ended) = log.ended(sensors.antenna_is_clear(&state, &here)) {
+            outcome = Ok(ended);
             break;
         }
-        state = actuators.advance(&plant, &state, &commands);
+        state = actuators.advance(&plant, &state, &commands, (ocean, &here, time_s));
     }
     Ok(log.summary(outcome, &actuators, began.elapsed().as_secs_f64()))
 }
 
+/// Whether a place ends the flight.
+fn lost(flying: &FlyingVehicle<'_>, ocean: &Ocean, position_m: &Vector3<f64>) -> Option<Loss> {
+    let floor_m = ocean.floor_depth_m(position_m.x, position_m.y);
+    if position_m.z > flying.limits.crush_depth_m {
+        Some(Loss::Crushed)
+    } else if floor_m.is_some_and(|floor_m| position_m.z > floor_m) {
+        Some(Loss::Grounded)
+    } else {
+        None
+    }
+}
+
 /// Floating at the surface, as light as it gets, nose down.
-fn afloat(flying: &FlyingVehicle<'_>, plant: &Plant<f64>, start: &Start) -> State<f64> {
+fn afloat(
+    flying: &FlyingVehicle<'_>,
+    ocean: &Ocean,
+    plant: &Plant<f64>,
+    start: &Start,
+    neutral_volume_m3: f64,
+) -> State<f64> {
     let [_, lightest] = flying.buoyancy.volume_m3;
     let [_, forward] = flying.vehicle.moving_mass.travel_m;
-    let volume = plant.displaced_volume_m3(0.0) + lightest;
     let mut state = State {
         position_m: Vector3::new(0.0, 0.0, 0.25 * flying.vehicle.hull.length_m),
         quaternion: quaternion_from_euler(&Vector3::new(0.0, -0.5, start.heading_deg.to_radians())),
         r_px_m: forward,
-        ..State::at_rest(volume)
+        ..State::at_rest(neutral_volume_m3 + lightest)
     };
-    // The splash of the launch settles before the mission starts.
-    for _ in 0..60 * TICK_HZ * STEPS_PER_TICK {
-        state = rk4_step(plant, &state, &Particle::Driven { u_b_m3_s: 0.0 }, TICK_S / f64::from(STEPS_PER_TICK));
+    // The splash of the launch settles before the mission starts, and the vehicle drifts off a little.
+    for step in (1..=SETTLING_S * TICK_HZ * STEPS_PER_TICK).rev() {
+        let water = ocean.from_time(f64::from(step) * -STEP_S);
+        state = rk4_step(plant, &state, &Particle::Driven { u_b_m3_s: 0.0 }, STEP_S, &water);
     }
     state
 }

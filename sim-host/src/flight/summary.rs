@@ -22,6 +22,18 @@ pub enum Outcome {
     Lost,
 }
 
+/// Why a vehicle did not come back.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Loss {
+    /// Its centre of buoyancy reached the sea floor: this model has no contact, and counts the vehicle as stuck.
+    Grounded,
+    /// Deeper than the hull bears.
+    Crushed,
+    /// Not back long after its mission's time was up.
+    Overdue,
+}
+
 /// A place relative to the start, m.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct NorthEast {
@@ -45,6 +57,8 @@ pub struct Surfacing {
 pub struct Summary {
     /// How it ended.
     pub outcome: Outcome,
+    /// Why it did not come back, if it did not.
+    pub loss: Option<Loss>,
     /// From the start to the end, s.
     pub duration_s: f64,
     /// Deepest place of the centre of buoyancy, m.
@@ -123,10 +137,11 @@ impl Log {
         (self.over_ticks >= LINGER_S * TICK_HZ).then_some(over)
     }
 
-    pub(super) fn summary(self, outcome: Outcome, actuators: &Actuators<'_>, wall_s: f64) -> Summary {
+    pub(super) fn summary(self, outcome: Result<Outcome, Loss>, actuators: &Actuators<'_>, wall_s: f64) -> Summary {
         let duration_s = f64::from(self.ticks) * TICK_S;
         Summary {
-            outcome,
+            outcome: outcome.unwrap_or(Outcome::Lost),
+            loss: outcome.err(),
             duration_s,
             max_depth_m: self.max_depth_m,
             ticks: self.ticks,

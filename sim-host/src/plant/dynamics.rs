@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3, Vector6};
 
 use super::{
-    Plant, State,
+    Plant, State, Surroundings,
     attitude::{quaternion_rate, rotation_from_quaternion},
     inertia::{ParticlePlace, axis, stack},
     solve::Cholesky,
@@ -57,22 +57,28 @@ impl<T: Real> Plant<T> {
     ///
     /// The result is a `State` whose every field is the time derivative of that field.
     #[must_use]
-    pub fn derivative(&self, state: &State<T>, input: &Input<T>) -> State<T> {
+    pub fn derivative(&self, state: &State<T>, input: &Input<T>, water: &Surroundings<T>) -> State<T> {
         let place = self.particle_place(state.r_px_m, state.mu_rad);
         let to_inertial = rotation_from_quaternion(&state.quaternion);
-        let balance = self.balance(state, &place, &to_inertial);
+        let balance = self.balance(state, &place, &to_inertial, water);
         let [axial, swing] = balance.particle;
         let (upper, lower) = halves(&balance.body);
         let rhs = stack(&upper, &lower, axial + input.u_px_n, swing + input.u_mu_nm);
         let acceleration = Cholesky::new(self.mass_matrix(state.r_px_m, state.mu_rad)).solve(rhs);
         let body = Vector6::from_fn(|i, _| acceleration[i]);
-        assemble(state, &to_inertial, &body, [acceleration[6], acceleration[7]], input.u_b_m3_s)
+        assemble(
+            state,
+            &(to_inertial * state.velocity_m_s + water.current_m_s),
+            &body,
+            [acceleration[6], acceleration[7]],
+            input.u_b_m3_s,
+        )
     }
 
     /// Rates of a state whose particle keeps its present speed (a braked or self-locking drive): six degrees of freedom.
     #[must_use]
-    pub fn derivative_driven(&self, state: &State<T>, u_b_m3_s: T) -> State<T> {
-        self.derivative_held(state, &self.held(state), u_b_m3_s)
+    pub fn derivative_driven(&self, state: &State<T>, u_b_m3_s: T, water: &Surroundings<T>) -> State<T> {
+        self.derivative_held(state, &self.held(state), u_b_m3_s, water)
     }
 
     /// The particle where it is.
@@ -82,19 +88,25 @@ impl<T: Real> Plant<T> {
     }
 
     /// As [`Plant::derivative_driven`], with what the particle's place gives computed before.
-    pub(super) fn derivative_held(&self, state: &State<T>, held: &Held<T>, u_b_m3_s: T) -> State<T> {
+    pub(super) fn derivative_held(
+        &self,
+        state: &State<T>,
+        held: &Held<T>,
+        u_b_m3_s: T,
+        water: &Surroundings<T>,
+    ) -> State<T> {
         let to_inertial = rotation_from_quaternion(&state.quaternion);
-        let balance = self.balance(state, &held.place, &to_inertial);
+        let balance = self.balance(state, &held.place, &to_inertial, water);
         let body = held.matrix.solve(balance.body);
         let zero = T::constant(0.0);
-        assemble(state, &to_inertial, &body, [zero, zero], u_b_m3_s)
+        assemble(state, &(to_inertial * state.velocity_m_s + water.current_m_s), &body, [zero, zero], u_b_m3_s)
     }
 
     /// Force and moment that the drive must give for the particle to keep its present speed.
     #[must_use]
-    pub fn reaction(&self, state: &State<T>) -> Reaction<T> {
+    pub fn reaction(&self, state: &State<T>, water: &Surroundings<T>) -> Reaction<T> {
         let Held { place, matrix } = self.held(state);
-        let balance = self.balance(state, &place, &rotation_from_quaternion(&state.quaternion));
+        let balance = self.balance(state, &place, &rotation_from_quaternion(&state.quaternion), water);
         let (linear, angular) = halves(&matrix.solve(balance.body));
         let (m, e1) = (self.particle_kg, axis::<T>());
         let row = |direction: &Vector3<T>, spin: &Vector3<T>| {
@@ -107,11 +119,11 @@ impl<T: Real> Plant<T> {
         }
     }
 
-    /// Resultant force and moment of the body's six equations, N and N m: zero in steady flight.
+    /// Resultant force and moment of the body's six equations in the static water, N and N m: zero in steady flight.
     #[must_use]
     pub fn body_residual(&self, state: &State<T>) -> Vector6<T> {
         let place = self.particle_place(state.r_px_m, state.mu_rad);
-        self.balance(state, &place, &rotation_from_quaternion(&state.quaternion)).body
+        self.balance(state, &place, &rotation_from_quaternion(&state.quaternion), &self.still()).body
     }
 
     /// The change of (v, ω) when the particle's speed jumps: momentum is kept.
@@ -132,7 +144,7 @@ impl<T: Real> Plant<T> {
         }
     }
 
-    /// Potential energy U = −m̃ g (i3·X) − g ζ·(m_rb r_rb + m_p r_p), J.
+    /// Potential energy in the static water, U = −m̃ g (i3·X) − g ζ·(m_rb r_rb + m_p r_p), J.
     #[must_use]
     pub fn potential_energy_j(&self, state: &State<T>) -> T {
         let down = rotation_from_quaternion(&state.quaternion).row(2).transpose();
@@ -142,19 +154,32 @@ impl<T: Real> Plant<T> {
     }
 
     /// Right-hand sides of (4)–(7), less Ṁ η, inputs left out.
-    fn balance(&self, state: &State<T>, place: &ParticlePlace<T>, to_inertial: &Matrix3<T>) -> Balance<T> {
+    fn balance(
+        &self,
+        state: &State<T>,
+        place: &ParticlePlace<T>,
+        to_inertial: &Matrix3<T>,
+        water: &Surroundings<T>,
+    ) -> Balance<T> {
         let (v, w, e1) = (state.velocity_m_s, state.rate_rad_s, axis::<T>());
         let motion = self.particle_motion(state, place);
         let (p, h) = self.body_momentum(state, place, &motion);
         let zeta = to_inertial.row(2).transpose();
         let gravity = zeta * self.gravity_m_s2;
-        let viscous = self.viscous_in(state);
+        let viscous = self.viscous(&v, &w, water.density_kg_m3);
         let moment = self.body_moment_kg_m + place.r * self.particle_kg;
+        let carried = self.carried(state, to_inertial, water);
+        // What every mass feels in the frame that goes with the water.
+        let felt = carried.map_or(gravity, |carried| gravity + carried.felt_m_s2);
 
-        let force = p.cross(&w) + gravity * self.net_mass_kg(state.displaced_volume_m3) + viscous.force_n;
-        let torque = h.cross(&w) + p.cross(&v) + moment.cross(&gravity) + viscous.moment_nm;
-        let (lost_force, lost_torque) = self.emerged(state, &zeta);
-        let on_particle = motion.momentum.cross(&motion.rate) + gravity * self.particle_kg;
+        let net_mass = self.mass_kg - water.density_kg_m3 * self.volume_in(state, water);
+        let mut force = p.cross(&w) + gravity * net_mass + viscous.force_n;
+        if let Some(carried) = &carried {
+            force += carried.force_n;
+        }
+        let torque = h.cross(&w) + p.cross(&v) + moment.cross(&felt) + viscous.moment_nm;
+        let (lost_force, lost_torque) = self.emerged(state, &zeta, water);
+        let on_particle = motion.momentum.cross(&motion.rate) + felt * self.particle_kg;
 
         // Ṁ η: only the particle's part of M varies.
         let turning = motion.rate.cross(&motion.r_rate) * self.particle_kg;
@@ -173,14 +198,14 @@ impl<T: Real> Plant<T> {
 
 fn assemble<T: Real>(
     state: &State<T>,
-    to_inertial: &Matrix3<T>,
+    position_m_s: &Vector3<T>,
     body: &Vector6<T>,
     particle: [T; 2],
     u_b_m3_s: T,
 ) -> State<T> {
     let (velocity_m_s, rate_rad_s) = halves(body);
     State {
-        position_m: to_inertial * state.velocity_m_s,
+        position_m: *position_m_s,
         quaternion: quaternion_rate(&state.quaternion, &state.rate_rad_s),
         velocity_m_s,
         rate_rad_s,

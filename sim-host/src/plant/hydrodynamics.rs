@@ -66,11 +66,11 @@ pub struct Viscous<T: Real> {
 }
 
 impl<T: Real> Plant<T> {
-    /// Viscous force and moment at a velocity and a rate (body axes, relative to the water).
+    /// Viscous force and moment at a velocity and a rate (body axes, relative to the water) in water of some density.
     ///
     /// The rate derivatives are scaled by the constant nominal speed, so a damping moment grows with V² times the rate.
     #[must_use]
-    pub fn viscous(&self, velocity_m_s: &Vector3<T>, rate_rad_s: &Vector3<T>) -> Viscous<T> {
+    pub fn viscous(&self, velocity_m_s: &Vector3<T>, rate_rad_s: &Vector3<T>, density_kg_m3: T) -> Viscous<T> {
         let c = &self.coefficients;
         let flow = Flow::new(velocity_m_s);
         let (alpha, beta) = (flow.alpha_rad, flow.beta_rad);
@@ -88,7 +88,7 @@ impl<T: Real> Plant<T> {
         let moment =
             Vector3::new(lateral(c.roll) * c.span_m, longitudinal(c.pitch) * c.chord_m, lateral(c.yaw) * c.span_m);
 
-        let pressure_n = T::constant(0.5) * self.density_kg_m3 * flow.speed_m_s * flow.speed_m_s * c.area_m2;
+        let pressure_n = T::constant(0.5) * density_kg_m3 * flow.speed_m_s * flow.speed_m_s * c.area_m2;
         let moment = match c.moment_frame {
             MomentFrame::Body => moment,
             MomentFrame::Current => flow.to_body(&moment),
@@ -101,9 +101,9 @@ impl<T: Real> Plant<T> {
         }
     }
 
-    /// Viscous force and moment in a state, in still water.
+    /// Viscous force and moment in a state, in the static water.
     #[must_use]
     pub fn viscous_in(&self, state: &State<T>) -> Viscous<T> {
-        self.viscous(&state.velocity_m_s, &state.rate_rad_s)
+        self.viscous(&state.velocity_m_s, &state.rate_rad_s, self.density_kg_m3)
     }
 }

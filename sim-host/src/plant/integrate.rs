@@ -2,7 +2,7 @@
 
 use nalgebra::Vector4;
 
-use super::{Input, Plant, State};
+use super::{Input, Medium, Plant, State};
 use crate::real::Real;
 
 /// How the particle is held during a step.
@@ -19,20 +19,29 @@ pub enum Particle<T: Real> {
 
 /// The state `dt_s` later.
 #[must_use]
-pub fn rk4_step<T: Real>(plant: &Plant<T>, state: &State<T>, particle: &Particle<T>, dt_s: T) -> State<T> {
+pub fn rk4_step<T: Real>(
+    plant: &Plant<T>,
+    state: &State<T>,
+    particle: &Particle<T>,
+    dt_s: T,
+    water: &impl Medium<T>,
+) -> State<T> {
     // A particle at rest stays where it is for the whole step.
     let at_rest = state.r_px_rate_m_s.value() == 0.0 && state.mu_rate_rad_s.value() == 0.0;
     let held = at_rest.then(|| plant.held(state));
-    let rate = |state: &State<T>| match (particle, &held) {
-        (Particle::Free(input), _) => plant.derivative(state, input),
-        (Particle::Driven { u_b_m3_s }, Some(held)) => plant.derivative_held(state, held, *u_b_m3_s),
-        (Particle::Driven { u_b_m3_s }, None) => plant.derivative_driven(state, *u_b_m3_s),
+    let rate = |state: &State<T>, into_step_s: T| {
+        let around = water.around(&state.position_m, into_step_s);
+        match (particle, &held) {
+            (Particle::Free(input), _) => plant.derivative(state, input, &around),
+            (Particle::Driven { u_b_m3_s }, Some(held)) => plant.derivative_held(state, held, *u_b_m3_s, &around),
+            (Particle::Driven { u_b_m3_s }, None) => plant.derivative_driven(state, *u_b_m3_s, &around),
+        }
     };
     let half = dt_s * T::constant(0.5);
-    let k1 = rate(state);
-    let k2 = rate(&state.plus(&k1, half));
-    let k3 = rate(&state.plus(&k2, half));
-    let k4 = rate(&state.plus(&k3, dt_s));
+    let k1 = rate(state, T::constant(0.0));
+    let k2 = rate(&state.plus(&k1, half), half);
+    let k3 = rate(&state.plus(&k2, half), half);
+    let k4 = rate(&state.plus(&k3, dt_s), dt_s);
     let (sixth, third) = (dt_s * T::constant(1.0 / 6.0), dt_s * T::constant(1.0 / 3.0));
     state.plus(&k1, sixth).plus(&k2, third).plus(&k3, third).plus(&k4, sixth).with_unit_quaternion()
 }

@@ -11,12 +11,14 @@ mod inertia;
 mod integrate;
 mod solve;
 mod surface;
+mod surroundings;
 
 pub use attitude::{euler_from_quaternion, quaternion_from_euler, rotation_from_quaternion};
 pub use dynamics::{Input, Reaction};
 pub use hydrodynamics::{Flow, Viscous};
 pub use inertia::Matrix8;
 pub use integrate::{Particle, rk4_step};
+pub use surroundings::{Medium, Surroundings, Unrest};
 
 use nalgebra::{Matrix3, Vector3, Vector4};
 
@@ -32,7 +34,7 @@ pub struct State<T: Real> {
     pub position_m: Vector3<T>,
     /// Unit quaternion (w, x, y, z) from body to inertial axes.
     pub quaternion: Vector4<T>,
-    /// v: body axes, m/s.
+    /// v: relative to the water, body axes, m/s.
     pub velocity_m_s: Vector3<T>,
     /// ω: body axes, rad/s.
     pub rate_rad_s: Vector3<T>,
@@ -67,7 +69,7 @@ impl<T: Real> State<T> {
     }
 }
 
-/// The constants of one vehicle in one water.
+/// The constants of one vehicle, and the density of its static analyses.
 #[derive(Clone, Debug)]
 pub struct Plant<T: Real> {
     mass_kg: T,
@@ -88,6 +90,15 @@ pub struct Plant<T: Real> {
     fixed_coupling_kg_m: Matrix3<T>,
     /// Constant part of M's rotational block: J_rb + J_f.
     fixed_inertia_kg_m2: Matrix3<T>,
+    /// M_f, kg.
+    added_mass_kg: Matrix3<T>,
+    /// C_f, kg m.
+    added_coupling_kg_m: Matrix3<T>,
+    /// κ: loss of displaced volume with pressure, 1/Pa.
+    compressibility_per_pa: T,
+    /// α_T: gain of displaced volume with temperature, 1/°C.
+    thermal_expansion_per_c: T,
+    reference_temperature_c: T,
     coefficients: Coefficients<T>,
     /// Present where the water has a surface.
     hull: Option<surface::Hull<T>>,
@@ -141,6 +152,7 @@ impl<T: Real> Plant<T> {
         let vector = |v: &Vector3<f64>| v.map(c);
         let (body, water) = (&vehicle.body, &vehicle.water);
         let moment = body.centre_of_mass_m * body.mass_kg;
+        let elastic = vehicle.buoyancy.as_ref().map(|buoyancy| buoyancy.elasticity).unwrap_or_default();
         let mass = Matrix3::from_diagonal_element(body.mass_kg + body.ballast_kg) + vehicle.added_mass.mass_kg;
         Self {
             mass_kg: c(vehicle.mass_kg()),
@@ -154,18 +166,23 @@ impl<T: Real> Plant<T> {
             fixed_mass_kg: mass.map(c),
             fixed_coupling_kg_m: (moment.cross_matrix() + vehicle.added_mass.coupling_kg_m).map(c),
             fixed_inertia_kg_m2: (body.inertia_kg_m2 + vehicle.added_mass.inertia_kg_m2).map(c),
+            added_mass_kg: vehicle.added_mass.mass_kg.map(c),
+            added_coupling_kg_m: vehicle.added_mass.coupling_kg_m.map(c),
+            compressibility_per_pa: c(elastic.compressibility_per_pa),
+            thermal_expansion_per_c: c(elastic.thermal_expansion_per_c),
+            reference_temperature_c: c(elastic.reference_temperature_c),
             coefficients: Coefficients::new(&vehicle.hydrodynamics),
             hull: None,
         }
     }
 
-    /// Net mass m̃ = m − ρ V_d, kg, positive sinks.
+    /// Net mass m̃ = m − ρ V_d in the static water, kg, positive sinks.
     #[must_use]
     pub fn net_mass_kg(&self, displaced_volume_m3: T) -> T {
         self.mass_kg - self.density_kg_m3 * displaced_volume_m3
     }
 
-    /// Displaced volume for a net mass, m³.
+    /// Displaced volume for a net mass in the static water, m³.
     #[must_use]
     pub fn displaced_volume_m3(&self, net_mass_kg: T) -> T {
         (self.mass_kg - net_mass_kg) / self.density_kg_m3

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::{Plant, State, inertia::axis};
+use super::{Plant, State, Surroundings, inertia::axis};
 use crate::{real::Real, vehicle};
 
 /// Slices along the hull. Eight give the buoyancy of a hull pitched through the surface within 1 %.
@@ -22,7 +22,9 @@ impl<T: Real> Hull<T> {
 }
 
 impl<T: Real> Plant<T> {
-    /// The same plant below a free surface at depth 0. Without it the water has no end.
+    /// The same plant below a free surface, at depth 0 in calm water. Without it the water has no end.
+    ///
+    /// What emerges loses its buoyancy; its added mass and, in waves, its Froude–Krylov force stay as if submerged.
     #[must_use]
     pub fn below_surface(mut self, hull: &vehicle::Hull) -> Self {
         self.hull = Some(Hull::new(hull));
@@ -30,18 +32,24 @@ impl<T: Real> Plant<T> {
     }
 
     /// Force and moment that are missing from buoyancy, body axes, N and N m. `zeta`: gravity's direction, body axes.
-    pub(super) fn emerged(&self, state: &State<T>, zeta: &Vector3<T>) -> (Vector3<T>, Vector3<T>) {
+    pub(super) fn emerged(
+        &self,
+        state: &State<T>,
+        zeta: &Vector3<T>,
+        water: &Surroundings<T>,
+    ) -> (Vector3<T>, Vector3<T>) {
         let mut lost = (Vector3::repeat(T::constant(0.0)), Vector3::repeat(T::constant(0.0)));
         let Some(hull) = &self.hull else { return lost };
         let reach_m = 0.5 * hull.length_m.value() + hull.radius_m.value();
-        if state.position_m.z.value() > reach_m {
+        let centre_m = state.position_m.z + water.surface_m;
+        if centre_m.value() > reach_m {
             return lost;
         }
-        let weight_n = self.density_kg_m3 * self.gravity_m_s2 * state.displaced_volume_m3;
+        let weight_n = water.density_kg_m3 * self.gravity_m_s2 * self.volume_in(state, water);
         let share = T::constant(1.0 / SLICES as f64);
         for slice in 0..SLICES {
             let station_m = hull.length_m * T::constant((slice as f64 + 0.5) / SLICES as f64 - 0.5);
-            let depth_m = state.position_m.z + zeta.x * station_m;
+            let depth_m = centre_m + zeta.x * station_m;
             let force = zeta * (weight_n * share * emerged_share(depth_m / hull.radius_m));
             lost.0 += force;
             lost.1 += (axis() * station_m).cross(&force);

@@ -12,6 +12,7 @@ pub use columns::{COLUMNS, Column, Value};
 use crate::{
     flight::{EnergyUsed, TICK_S, Tick},
     mission_file::Start,
+    ocean,
     plant::{euler_from_quaternion, rotation_from_quaternion},
     vehicle::Water,
 };
@@ -49,10 +50,12 @@ pub struct Truth {
     pub position_m: Vector3<f64>,
     /// Roll, pitch and heading, rad.
     pub euler_rad: Vector3<f64>,
-    /// Velocity over ground in body axes (forward, right, down), m/s.
+    /// Velocity relative to the water in body axes (forward, right, down), m/s.
     pub velocity_m_s: Vector3<f64>,
     /// Velocity over ground, north, east and down, m/s.
     pub ground_velocity_m_s: Vector3<f64>,
+    /// The water at the centre of buoyancy.
+    pub water: ocean::Sample,
     /// Rates about the body's axes, rad/s.
     pub rate_rad_s: Vector3<f64>,
     /// Axial position of the moving mass, m.
@@ -72,7 +75,7 @@ impl Sample {
 }
 
 impl Truth {
-    /// V, m/s.
+    /// V, through the water, m/s.
     #[must_use]
     pub fn speed_m_s(&self) -> f64 {
         self.velocity_m_s.norm()
@@ -90,10 +93,11 @@ impl Truth {
         ratio(self.velocity_m_s.y, self.speed_m_s()).asin()
     }
 
-    /// γ, rad, climbing positive; 0 at rest.
+    /// γ through the water, rad, climbing positive; 0 at rest.
     #[must_use]
     pub fn path_angle_rad(&self) -> f64 {
-        -ratio(self.ground_velocity_m_s.z, self.ground_velocity_m_s.norm()).asin()
+        let through = self.ground_velocity_m_s - self.water.around.current_m_s;
+        -ratio(through.z, through.norm()).asin()
     }
 }
 
@@ -113,7 +117,9 @@ impl From<&Tick<'_>> for Sample {
                 position_m: state.position_m,
                 euler_rad: euler_from_quaternion(&state.quaternion),
                 velocity_m_s: state.velocity_m_s,
-                ground_velocity_m_s: rotation_from_quaternion(&state.quaternion) * state.velocity_m_s,
+                ground_velocity_m_s: rotation_from_quaternion(&state.quaternion) * state.velocity_m_s
+                    + tick.water.around.current_m_s,
+                water: *tick.water,
                 rate_rad_s: state.rate_rad_s,
                 r_px_m: state.r_px_m,
                 mu_rad: state.mu_rad,

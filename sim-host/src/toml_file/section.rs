@@ -97,6 +97,11 @@ impl Section<'_> {
         if self.has(key) { self.number(key, rule) } else { default }
     }
 
+    /// A number that may be left out, without a default.
+    pub fn optional_number(&mut self, key: &'static str, rule: Rule) -> Option<f64> {
+        self.has(key).then(|| self.number(key, rule))
+    }
+
     /// A whole number that must be there.
     pub fn integer(&mut self, key: &'static str, bounds: RangeInclusive<i64>) -> i64 {
         let right = format!("a whole number from {} to {}", bounds.start(), bounds.end());
@@ -116,6 +121,11 @@ impl Section<'_> {
             value.as_str().filter(|text| (1..=longest).contains(&text.chars().count())).map(ToOwned::to_owned)
         };
         self.required(key, &right, accept).unwrap_or_default()
+    }
+
+    /// A text that may be left out.
+    pub fn optional_text(&mut self, key: &'static str, longest: usize) -> Option<String> {
+        self.has(key).then(|| self.text(key, longest))
     }
 
     /// One of several words; the first of them if the key is left out.
@@ -169,6 +179,11 @@ impl Section<'_> {
     /// Rows of two numbers that may be left out.
     pub fn optional_pairs(&mut self, key: &'static str) -> Option<Vec<[f64; 2]>> {
         self.has(key).then(|| self.pairs(key))
+    }
+
+    /// Rows of three numbers.
+    pub fn triples(&mut self, key: &'static str) -> Vec<[f64; 3]> {
+        self.required(key, "rows of 3 finite numbers", rows).unwrap_or_default()
     }
 
     /// Refuses the value of a key for what several values show together.

@@ -2,15 +2,16 @@
 //!
 //! `[hydrodynamics]` may leave out `area_m2`, `span_m` and `chord_m` (then the wing's), `moment_frame` (then `"body"`) and
 //! the coefficients that symmetry makes small: `lift.zero`, `lift.q`, `pitch.zero`, `side.p`, `side.r`, `roll.r`, `yaw.p`
-//! (then 0). Every other coefficient must be there.
+//! (then 0). Every other coefficient must be there. `[buoyancy]` may leave out `compressibility_per_pa`, `thermal_expansion_per_c`
+//! (then 0) and `reference_temperature_c` (then 15).
 //!
 //! `[buoyancy]` may say how its engine is built and `[moving_mass]` how it is driven: [`super::Engine`] and [`super::Drive`].
 
 use nalgebra::{Matrix3, Matrix6, Vector3};
 
 use super::{
-    AddedMass, Body, Buoyancy, Drive, Energy, Engine, Fin, Hull, Hydrodynamics, Limits, MomentFrame, MovingMass,
-    Vehicle, Water, Wing,
+    AddedMass, Body, Buoyancy, Drive, Elasticity, Energy, Engine, Fin, Hull, Hydrodynamics, Limits, MomentFrame,
+    MovingMass, Vehicle, Water, Wing,
 };
 use crate::toml_file::{self, FileError, Rule, Section};
 
@@ -205,12 +206,22 @@ fn buoyancy(buoyancy: &mut Section<'_>) -> Buoyancy {
         efficiency: buoyancy.pairs("efficiency"),
         idle_power_w: buoyancy.number("idle_power_w", Rule::NotNegative),
         engine: Engine::read(buoyancy, volume_m3),
+        elasticity: elasticity(buoyancy),
     };
     let rising = read.efficiency.is_sorted_by(|[below, _], [above, _]| below < above);
     let possible = read.efficiency.iter().all(|[_, efficiency]| *efficiency > 0.0 && *efficiency <= 1.0);
     let wrong = read.efficiency.is_empty() || !rising || !possible;
     buoyancy.refuse_if(wrong, "efficiency", "rows of [pressure in Pa, rising; efficiency above 0, at most 1]");
     read
+}
+
+/// Water itself gives way by 5e-10 /Pa and 4e-4 /°C at most: the bounds keep out a slip of units.
+fn elasticity(buoyancy: &mut Section<'_>) -> Elasticity {
+    Elasticity {
+        compressibility_per_pa: buoyancy.number_or("compressibility_per_pa", Rule::Within(0.0, 1e-8), 0.0),
+        thermal_expansion_per_c: buoyancy.number_or("thermal_expansion_per_c", Rule::Within(0.0, 1e-2), 0.0),
+        reference_temperature_c: buoyancy.number_or("reference_temperature_c", Rule::Within(-10.0, 50.0), 15.0),
+    }
 }
 
 fn energy(energy: &mut Section<'_>) -> Energy {

@@ -196,6 +196,19 @@ pub struct Buoyancy {
     pub idle_power_w: f64,
     /// How it is built.
     pub engine: Engine,
+    /// How the displaced volume gives way.
+    pub elasticity: Elasticity,
+}
+
+/// How pressure and temperature change the displaced volume: `V_d (1 − κ p + α_T (T − T_ref))`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Elasticity {
+    /// κ, 1/Pa of pressure above the air's.
+    pub compressibility_per_pa: f64,
+    /// α_T, 1/°C.
+    pub thermal_expansion_per_c: f64,
+    /// T_ref, °C.
+    pub reference_temperature_c: f64,
 }
 
 /// Electrical loads.

@@ -8,7 +8,8 @@ use nalgebra::{Matrix2, Vector2};
 use super::axis::{Axis, Motor};
 use crate::{
     flight::TICK_S,
-    plant::{Input, Particle, Plant, State, rk4_step},
+    ocean::{Ocean, OceanFrom},
+    plant::{Input, Medium, Particle, Plant, State, rk4_step},
     vehicle::{Drive, MovingMass},
 };
 
@@ -43,27 +44,30 @@ impl MassDrive {
         }
     }
 
-    /// One tick at commanded speeds (m/s and rad/s) and a rate of displaced volume; nothing if the brakes hold all through it.
+    /// One tick at commanded speeds (m/s and rad/s) and a rate of displaced volume, in an ocean from a time on; nothing if the
+    /// brakes hold all through it.
     pub(super) fn advance(
         &mut self,
         plant: &Plant<f64>,
         state: &State<f64>,
         commands: [f64; 2],
         u_b_m3_s: f64,
+        (ocean, time_s): (&Ocean, f64),
     ) -> Option<Moved> {
         let motors = self.motors.get_or_insert([state.r_px_m, state.mu_rad].map(Motor::braked));
         let braked = commands == [0.0; 2] && motors.iter().all(|motor| motor.clamped_at.is_some());
-        if braked && at_rest(state) && holds(&self.axes, plant, state) {
+        if braked && at_rest(state) && holds(&self.axes, plant, state, &ocean.from_time(time_s)) {
             return None;
         }
         let mut moved = Moved { state: *state, energy_j: [0.0; 2] };
-        for _ in 0..SUB_STEPS {
+        for step in 0..SUB_STEPS {
+            let water = ocean.from_time(time_s + f64::from(step) * SUB_STEP_S);
             for ((motor, axis), (command, place)) in
                 motors.iter_mut().zip(&self.axes).zip(commands.into_iter().zip(place(&moved.state)))
             {
                 motor.follow(axis, command, place, SUB_STEP_S);
             }
-            sub_step(&self.axes, motors, plant, &mut moved, u_b_m3_s);
+            sub_step(&self.axes, motors, plant, &mut moved, (u_b_m3_s, &water));
         }
         settle(motors, plant, &mut moved.state);
         Some(moved)
@@ -71,16 +75,23 @@ impl MassDrive {
 }
 
 /// Whether brakes of these ratings bear the load of a particle at rest.
-fn holds(axes: &[Axis; 2], plant: &Plant<f64>, state: &State<f64>) -> bool {
-    let load = plant.reaction(state);
+fn holds(axes: &[Axis; 2], plant: &Plant<f64>, state: &State<f64>, water: &OceanFrom<'_>) -> bool {
+    let load = plant.reaction(state, &water.around(&state.position_m, 0.0));
     load.u_px_n.abs() <= axes[0].brake && load.u_mu_nm.abs() <= axes[1].brake
 }
 
 /// One sub-step: the forces that make the wanted rates, then the equations with the particle free.
-fn sub_step(axes: &[Axis; 2], motors: &mut [Motor; 2], plant: &Plant<f64>, moved: &mut Moved, u_b_m3_s: f64) {
+fn sub_step(
+    axes: &[Axis; 2],
+    motors: &mut [Motor; 2],
+    plant: &Plant<f64>,
+    moved: &mut Moved,
+    (u_b_m3_s, water): (f64, &OceanFrom<'_>),
+) {
     let state = moved.state;
+    let around = water.around(&state.position_m, 0.0);
     let rates = |u: [f64; 2]| {
-        let rate = plant.derivative(&state, &Input { u_px_n: u[0], u_mu_nm: u[1], u_b_m3_s });
+        let rate = plant.derivative(&state, &Input { u_px_n: u[0], u_mu_nm: u[1], u_b_m3_s }, &around);
         Vector2::new(rate.r_px_rate_m_s, rate.mu_rate_rad_s)
     };
     let free = rates([0.0; 2]);
@@ -98,7 +109,7 @@ fn sub_step(axes: &[Axis; 2], motors: &mut [Motor; 2], plant: &Plant<f64>, moved
         moved.energy_j[i] += motor.work(&axes[i], u[i], places[i], wanted[i], SUB_STEP_S);
     }
     let input = Input { u_px_n: u[0], u_mu_nm: u[1], u_b_m3_s };
-    moved.state = rk4_step(plant, &state, &Particle::Free(input), SUB_STEP_S);
+    moved.state = rk4_step(plant, &state, &Particle::Free(input), SUB_STEP_S, water);
 }
 
 /// Once both brakes hold a mass that no longer moves to speak of, it stands exactly where they closed.
@@ -142,12 +153,15 @@ mod tests {
         };
         let plant = Plant::<f64>::new(&vehicle);
         let mut drive = MassDrive::new(&vehicle.moving_mass).unwrap();
-        drive.advance(&plant, state, [0.0; 2], 0.0).is_none_or(|moved| place(&moved.state) == place(state))
+        drive
+            .advance(&plant, state, [0.0; 2], 0.0, (&Ocean::still(&vehicle.water), 0.0))
+            .is_none_or(|moved| place(&moved.state) == place(state))
     }
 
     #[test]
     fn a_brake_holds_any_load_up_to_its_rating_and_none_beyond() {
-        let plant = Plant::<f64>::new(&Vehicle::load("slocum-paper").unwrap());
+        let vehicle = Vehicle::load("slocum-paper").unwrap();
+        let (plant, ocean) = (Plant::<f64>::new(&vehicle), Ocean::still(&vehicle.water));
         for (roll, pitch, mu, turn) in
             [(0.0, 1.5, 0.0, 0.0), (3.0, -0.4, 0.9, 0.5), (-1.4, 0.2, -1.0, -2.0), (0.3, -1.0, 0.5, 1.0)]
         {
@@ -159,7 +173,7 @@ mod tests {
                 mu_rad: mu,
                 ..State::at_rest(plant.displaced_volume_m3(0.2))
             };
-            let load = plant.reaction(&state);
+            let load = plant.reaction(&state, &ocean.from_time(0.0).around(&state.position_m, 0.0));
             let (force, moment) = (load.u_px_n.abs(), load.u_mu_nm.abs());
             // What is needed changes within a tick; the rating is compared at its beginning.
             assert!(stays(&state, 1.001 * force, 1.001 * moment), "{force} N, {moment} N m");

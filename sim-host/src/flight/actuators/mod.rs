@@ -6,8 +6,11 @@ mod mass_drive;
 
 use shared::device::{Commands, RAD_PER_CDEG, UL_PER_M3, UM_PER_M};
 
-use super::{FlyingVehicle, STEPS_PER_TICK, TICK_S, battery::Battery};
-use crate::plant::{Particle, Plant, State, rk4_step};
+use super::{FlyingVehicle, STEP_S, STEPS_PER_TICK, TICK_S, battery::Battery};
+use crate::{
+    ocean::{Ocean, Sample},
+    plant::{Particle, Plant, State, rk4_step},
+};
 use engine::{Engine, Flow};
 use mass_drive::MassDrive;
 
@@ -40,7 +43,6 @@ pub(super) struct Actuators<'a> {
     engine: Engine,
     /// Present if motors drive the moving mass; else it has the commanded speed at once.
     mass_drive: Option<MassDrive>,
-    time_s: f64,
     pub(super) battery: Battery,
     pub(super) used: EnergyUsed,
     /// Ideal work p ΔV of the pump, J.
@@ -48,14 +50,14 @@ pub(super) struct Actuators<'a> {
 }
 
 impl<'a> Actuators<'a> {
-    pub(super) fn new(flying: &FlyingVehicle<'a>) -> Self {
+    /// Of a vehicle whose displaced volume is this when the buoyancy device stands at zero.
+    pub(super) fn new(flying: &FlyingVehicle<'a>, neutral_volume_m3: f64) -> Self {
         let energy = flying.energy;
         Self {
             flying: flying.clone(),
-            neutral_volume_m3: flying.vehicle.neutral_volume_m3(),
+            neutral_volume_m3,
             engine: Engine::default(),
             mass_drive: MassDrive::new(&flying.vehicle.moving_mass),
-            time_s: 0.0,
             battery: Battery::new(flying.cells, energy.battery_v, energy.battery_j),
             used: EnergyUsed::default(),
             pump_work_j: 0.0,
@@ -67,15 +69,20 @@ impl<'a> Actuators<'a> {
         state.displaced_volume_m3 + self.engine.leaked_m3 - self.neutral_volume_m3
     }
 
-    /// One tick under some commands.
-    pub(super) fn advance(&mut self, plant: &Plant<f64>, state: &State<f64>, commands: &Commands) -> State<f64> {
-        let pressure_pa = self.pressure_pa(state);
+    /// One tick under some commands, from `time_s` on; `here` is the water where and when it begins.
+    pub(super) fn advance(
+        &mut self,
+        plant: &Plant<f64>,
+        state: &State<f64>,
+        commands: &Commands,
+        (ocean, here, time_s): (&Ocean, &Sample, f64),
+    ) -> State<f64> {
+        let pressure_pa = here.around.pressure_pa;
         let commanded_m3_s = f64::from(commands.vbd_rate_ul_s) / f64::from(UL_PER_M3);
-        let place = (self.vbd_m3(state), pressure_pa, self.time_s);
+        let place = (self.vbd_m3(state), pressure_pa, time_s);
         let flow = self.engine.flow(self.flying.buoyancy, &self.flying.faults, commanded_m3_s, place);
-        let (next, mass_j) = self.moved(plant, state, commands, flow.displaced_m3_s);
+        let (next, mass_j) = self.moved(plant, state, commands, flow.displaced_m3_s, (ocean, time_s));
         self.charge(pressure_pa, &flow, mass_j);
-        self.time_s += TICK_S;
         next
     }
 
@@ -86,25 +93,20 @@ impl<'a> Actuators<'a> {
         state: &State<f64>,
         commands: &Commands,
         u_b_m3_s: f64,
+        water: (&Ocean, f64),
     ) -> (State<f64>, [f64; 2]) {
         let slide = f64::from(commands.r_px_rate_um_s) / f64::from(UM_PER_M);
         let turn = f64::from(commands.mu_rate_cdeg_s) * f64::from(RAD_PER_CDEG);
         if let Some(drive) = &mut self.mass_drive {
-            return match drive.advance(plant, state, [slide, turn], u_b_m3_s) {
+            return match drive.advance(plant, state, [slide, turn], u_b_m3_s, water) {
                 Some(moved) => (moved.state, moved.energy_j),
-                None => (steps(plant, state, u_b_m3_s), [0.0; 2]),
+                None => (steps(plant, state, u_b_m3_s, water), [0.0; 2]),
             };
         }
         // A geared drive takes up its speed at once, and the vehicle recoils.
         let rates = self.held(state, [slide, turn]);
         let begun = plant.with_particle_rates(state, rates[0], rates[1]);
-        (steps(plant, &begun, u_b_m3_s), self.running(rates))
-    }
-
-    /// Pressure above the air's, Pa.
-    fn pressure_pa(&self, state: &State<f64>) -> f64 {
-        let water = &self.flying.vehicle.water;
-        (water.density_kg_m3 * water.gravity_m_s2 * state.position_m.z).max(0.0)
+        (steps(plant, &begun, u_b_m3_s, water), self.running(rates))
     }
 
     /// Rates of the mass (m/s, rad/s) held to what the drives can do and to what is left before the end stops.
@@ -143,8 +145,10 @@ impl<'a> Actuators<'a> {
     }
 }
 
-/// One tick of a particle that keeps its speed.
-fn steps(plant: &Plant<f64>, state: &State<f64>, u_b_m3_s: f64) -> State<f64> {
-    let step_s = TICK_S / f64::from(STEPS_PER_TICK);
-    (0..STEPS_PER_TICK).fold(*state, |state, _| rk4_step(plant, &state, &Particle::Driven { u_b_m3_s }, step_s))
+/// One tick of a particle that keeps its speed, in an ocean from a time on.
+fn steps(plant: &Plant<f64>, state: &State<f64>, u_b_m3_s: f64, (ocean, time_s): (&Ocean, f64)) -> State<f64> {
+    (0..STEPS_PER_TICK).fold(*state, |state, step| {
+        let water = ocean.from_time(time_s + f64::from(step) * STEP_S);
+        rk4_step(plant, &state, &Particle::Driven { u_b_m3_s }, STEP_S, &water)
+    })
 }

@@ -12,6 +12,7 @@ use shared::device::{GpsFix, Measurements, TICK_HZ};
 use super::{FlyingVehicle, TICK_S, actuators::Actuators, faults::Instrument};
 use crate::{
     mission_file::Start,
+    ocean::Sample,
     plant::{State, rotation_from_quaternion},
 };
 use compass::Compass;
@@ -22,6 +23,8 @@ use pressure::PressureSensor;
 const ANTENNA_M: f64 = 0.2;
 /// Height of the antenna's tip at which waves no longer wash it, m.
 const CLEAR_M: f64 = 0.05;
+/// Time under water that the search survives: waves wash over the antenna, s.
+const GPS_MEMORY_S: u32 = 20;
 /// Steps of a 12-bit potentiometer over its travel.
 const POT_STEPS: f64 = 4096.0;
 /// Metres per degree of latitude, on the sphere that the controller uses.
@@ -33,13 +36,13 @@ pub(super) struct Sensors<'a> {
     flying: FlyingVehicle<'a>,
     noise: Noise,
     start: Start,
-    pa_per_m: f64,
     tail_m: f64,
     pressure: PressureSensor,
     compass: Compass,
     pots: [Pot; 3],
     ticks: u32,
     clear_ticks: u32,
+    under_ticks: u32,
 }
 
 /// A position potentiometer: where its range begins, its step and its noise.
@@ -74,24 +77,23 @@ impl<'a> Sensors<'a> {
             flying: flying.clone(),
             noise,
             start: *start,
-            pa_per_m,
             tail_m: 0.5 * vehicle.hull.length_m + ANTENNA_M,
             pressure,
             compass,
             pots: [Pot::over(mass.travel_m, errors.pot_noise), Pot::over(mass.roll_deg, errors.pot_noise), vbd],
             ticks: 0,
             clear_ticks: 0,
+            under_ticks: 0,
         }
     }
 
-    /// One tick of measurements.
-    pub(super) fn measure(&mut self, state: &State<f64>, actuators: &Actuators<'_>) -> Measurements {
+    /// One tick of measurements in some water.
+    pub(super) fn measure(&mut self, state: &State<f64>, here: &Sample, actuators: &Actuators<'_>) -> Measurements {
         let time_s = f64::from(self.ticks) * TICK_S;
         self.ticks += 1;
-        let antenna_is_clear = self.antenna_is_clear(state);
-        let true_pa = (self.pa_per_m * state.position_m.z).max(0.0);
+        let antenna_is_clear = self.antenna_is_clear(state, here);
         // Every instrument reads, also one that is not heard: no draw depends on another's silence.
-        let pressure_pa = self.pressure.read(true_pa, time_s, antenna_is_clear, &mut self.noise);
+        let pressure_pa = self.pressure.read(here.around.pressure_pa, time_s, antenna_is_clear, &mut self.noise);
         let attitude = self.compass.read(state, &mut self.noise);
         let fix = self.fix(state, antenna_is_clear);
         let positions = [state.r_px_m, state.mu_rad.to_degrees(), actuators.vbd_m3(state)];
@@ -110,16 +112,20 @@ impl<'a> Sensors<'a> {
     }
 
     /// Whether the antenna, on the tail, is out of the water.
-    pub(super) fn antenna_is_clear(&self, state: &State<f64>) -> bool {
+    pub(super) fn antenna_is_clear(&self, state: &State<f64>, here: &Sample) -> bool {
         let down = rotation_from_quaternion(&state.quaternion).row(2).transpose();
-        state.position_m.z - down.x * self.tail_m < -CLEAR_M
+        state.position_m.z + here.around.surface_m - down.x * self.tail_m < -CLEAR_M
     }
 
     fn fix(&mut self, state: &State<f64>, antenna_is_clear: bool) -> Option<GpsFix> {
-        self.clear_ticks = if antenna_is_clear { self.clear_ticks + 1 } else { 0 };
+        self.under_ticks = if antenna_is_clear { 0 } else { self.under_ticks.saturating_add(1) };
+        if self.under_ticks > GPS_MEMORY_S * TICK_HZ {
+            self.clear_ticks = 0;
+        }
+        self.clear_ticks = self.clear_ticks.saturating_add(antenna_is_clear.into());
         let errors = &self.flying.sensor_errors;
         let error_m = [errors.gps_noise_m; 2].map(|sigma| self.noise.normal(sigma));
-        if f64::from(self.clear_ticks) < errors.gps_acquisition_s * f64::from(TICK_HZ) {
+        if !antenna_is_clear || f64::from(self.clear_ticks) < errors.gps_acquisition_s * f64::from(TICK_HZ) {
             return None;
         }
         let latitude_deg = self.start.latitude_deg + (state.position_m.x + error_m[0]) / M_PER_DEG;

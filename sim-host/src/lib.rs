@@ -24,6 +24,7 @@
 //! | what weighs like water is carried like water: accelerating current, swell, shear | `tests/moving_water.rs` | 1e-13 m/s: rounding |
 //! | energy in a steady irrotational flow, lopsided | `tests/moving_water.rs` | 1e-7 relative: fourth order at 5 ms |
 //! | TEOS-10's published check values | `ocean::teos10` | 1e-9 kg/m³; 2e-5 °C of Θ: a fit's |
+//! | cross flow: attached law below the stall, drag of the plan view across, never gives energy | `tests/crossflow.rs` | equal bits; 1e-12; sign |
 //! | the paper's trim, Tables 1 and 2, eqs (14)–(16) = 3×3 system = exact helix | `tests/trim.rs`, `tests/stability.rs` | printed digits; 1e-9 |
 //! | electrical energy of the pump over p ΔV | `tests/devices.rs` | fielded efficiencies; 1e-9 for p ΔV itself |
 //! | Seawing's published spiral | `tests/seawing.rs` | 2 %: published digits, another drag law |

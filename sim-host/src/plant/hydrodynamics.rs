@@ -59,9 +59,9 @@ pub struct Viscous<T: Real> {
     pub force_n: Vector3<T>,
     /// m_v, N m.
     pub moment_nm: Vector3<T>,
-    /// C_L.
+    /// C_L of attached flow.
     pub lift_coefficient: T,
-    /// C_D.
+    /// C_D of attached flow.
     pub drag_coefficient: T,
 }
 
@@ -93,12 +93,9 @@ impl<T: Real> Plant<T> {
             MomentFrame::Body => moment,
             MomentFrame::Current => flow.to_body(&moment),
         };
-        Viscous {
-            force_n: flow.to_body(&in_flow_axes) * pressure_n,
-            moment_nm: moment * pressure_n,
-            lift_coefficient,
-            drag_coefficient,
-        }
+        let attached = (flow.to_body(&in_flow_axes) * pressure_n, moment * pressure_n);
+        let (force_n, moment_nm) = self.blended(attached, density_kg_m3, velocity_m_s, rate_rad_s);
+        Viscous { force_n, moment_nm, lift_coefficient, drag_coefficient }
     }
 
     /// Viscous force and moment in a state, in the static water.

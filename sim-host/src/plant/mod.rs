@@ -5,6 +5,7 @@
 //! The velocity `η = (v, ω, ṙ_px, μ̇)`; the kinetic energy is `½ ηᵀ M(r_p) η`; `M η̇ = rhs − Ṁ η` is solved, never lagged.
 
 mod attitude;
+mod crossflow;
 mod dynamics;
 mod hydrodynamics;
 mod inertia;
@@ -100,6 +101,7 @@ pub struct Plant<T: Real> {
     thermal_expansion_per_c: T,
     reference_temperature_c: T,
     coefficients: Coefficients<T>,
+    crossflow: Option<crossflow::Crossflow<T>>,
     /// Present where the water has a surface.
     hull: Option<surface::Hull<T>>,
 }
@@ -172,6 +174,7 @@ impl<T: Real> Plant<T> {
             thermal_expansion_per_c: c(elastic.thermal_expansion_per_c),
             reference_temperature_c: c(elastic.reference_temperature_c),
             coefficients: Coefficients::new(&vehicle.hydrodynamics),
+            crossflow: crossflow::Crossflow::new(vehicle),
             hull: None,
         }
     }

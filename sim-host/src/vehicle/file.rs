@@ -3,15 +3,15 @@
 //! `[hydrodynamics]` may leave out `area_m2`, `span_m` and `chord_m` (then the wing's), `moment_frame` (then `"body"`) and
 //! the coefficients that symmetry makes small: `lift.zero`, `lift.q`, `pitch.zero`, `side.p`, `side.r`, `roll.r`, `yaw.p`
 //! (then 0). Every other coefficient must be there. `[buoyancy]` may leave out `compressibility_per_pa`, `thermal_expansion_per_c`
-//! (then 0) and `reference_temperature_c` (then 15).
+//! (then 0) and `reference_temperature_c` (then 15). `[crossflow]` may leave out its areas (then the geometry's).
 //!
 //! `[buoyancy]` may say how its engine is built and `[moving_mass]` how it is driven: [`super::Engine`] and [`super::Drive`].
 
 use nalgebra::{Matrix3, Matrix6, Vector3};
 
 use super::{
-    AddedMass, Body, Buoyancy, Drive, Elasticity, Energy, Engine, Fin, Hull, Hydrodynamics, Limits, MomentFrame,
-    MovingMass, Vehicle, Water, Wing,
+    AddedMass, Body, Buoyancy, Crossflow, Drive, Elasticity, Energy, Engine, Fin, Hull, Hydrodynamics, Limits,
+    MomentFrame, MovingMass, Vehicle, Water, Wing,
 };
 use crate::toml_file::{self, FileError, Rule, Section};
 
@@ -48,20 +48,22 @@ impl Vehicle {
 fn vehicle(file: &mut Section<'_>) -> Vehicle {
     let hull = file.section("hull", hull);
     let wing = file.section("wing", wing);
+    let fin = file.section("fin", fin);
     Vehicle {
         name: file.text("name", NAME_CHARS),
         nominal_speed_m_s: file.number("nominal_speed_m_s", Rule::Positive),
-        fin: file.section("fin", fin),
         body: file.section("body", body),
         moving_mass: file.section("moving_mass", moving_mass),
         added_mass: given(file, "added_mass", added_mass),
         hydrodynamics: given(file, "hydrodynamics", |section| hydrodynamics(section, &hull, &wing)),
+        crossflow: file.optional_section("crossflow", |section| crossflow(section, &hull, &wing, &fin)),
         buoyancy: file.optional_section("buoyancy", buoyancy),
         energy: file.optional_section("energy", energy),
         limits: file.optional_section("limits", limits),
         water: file.section("water", water),
         hull,
         wing,
+        fin,
     }
 }
 
@@ -231,6 +233,21 @@ fn energy(energy: &mut Section<'_>) -> Energy {
         hotel_w: energy.number("hotel_w", Rule::NotNegative),
         pitch_motor_w: energy.number("pitch_motor_w", Rule::NotNegative),
         roll_motor_w: energy.number("roll_motor_w", Rule::NotNegative),
+    }
+}
+
+/// Areas default to the geometry's: the hull's side view with the wing outside it, or with the fin.
+fn crossflow(crossflow: &mut Section<'_>, hull: &Hull, wing: &Wing, fin: &Fin) -> Crossflow {
+    let hull_m2 = hull.length_m * hull.diameter_m();
+    let exposed_wing_m2 = wing.chord_m(hull) * (wing.span_m(hull) - hull.diameter_m());
+    let stall_deg = crossflow.number("stall_deg", Rule::Within(1.0, 89.0));
+    let least = if stall_deg.is_finite() { stall_deg } else { 1.0 };
+    Crossflow {
+        drag_coefficient: crossflow.number("drag_coefficient", Rule::Positive),
+        plan_area_m2: crossflow.number_or("plan_area_m2", Rule::Positive, hull_m2 + exposed_wing_m2),
+        side_area_m2: crossflow.number_or("side_area_m2", Rule::Positive, hull_m2 + fin.area_m2(hull)),
+        stall_deg,
+        separated_deg: crossflow.number("separated_deg", Rule::Within(least, 90.0)),
     }
 }
 

@@ -33,6 +33,8 @@ pub struct Vehicle {
     pub added_mass: AddedMass,
     /// Coefficients of the viscous forces.
     pub hydrodynamics: Hydrodynamics,
+    /// Separated flow at large angles; without it the linear law holds at every angle.
+    pub crossflow: Option<Crossflow>,
     /// Buoyancy engine; needed only to fly.
     pub buoyancy: Option<Buoyancy>,
     /// Electrical loads; needed only to fly.
@@ -177,6 +179,21 @@ pub struct Hydrodynamics {
     pub c_n_beta: f64,
     pub c_n_p: f64,
     pub c_n_r: f64,
+}
+
+/// Cross-flow drag of separated flow.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Crossflow {
+    /// c_dc: drag coefficient of the cross section in a flow across it.
+    pub drag_coefficient: f64,
+    /// Area seen along b3 (hull and wing), m².
+    pub plan_area_m2: f64,
+    /// Area seen along b2 (hull and fin), m².
+    pub side_area_m2: f64,
+    /// Incidence up to which the flow stays attached, deg.
+    pub stall_deg: f64,
+    /// Incidence from which it has separated, deg.
+    pub separated_deg: f64,
 }
 
 /// The variable buoyancy device.

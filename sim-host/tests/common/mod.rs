@@ -9,6 +9,7 @@ use sim_host::{
 };
 
 /// The paper's Slocum made lopsided, so that no term of the equations vanishes by symmetry.
+#[allow(dead_code, reason = "not every test file needs it")]
 pub(crate) fn lopsided() -> Vehicle {
     let mut vehicle = Vehicle::load("slocum-paper").unwrap();
     let skew = Matrix3::new(0.0, 0.3, -0.2, 0.3, 0.0, 0.4, -0.2, 0.4, 0.0);

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use crate::{
-    device::{Attitude, GpsFix, MM_PER_M, Measurements, RAD_PER_CDEG, TICK_S, UM_PER_M},
+    device::{Attitude, GpsFix, MM_PER_M, Measurements, RAD_PER_CDEG, TICK_HZ, TICK_S, UM_PER_M},
     math,
     reduced::{Drive, Reduced},
     vehicle::FlightVehicle,
@@ -13,6 +13,8 @@ use crate::{
 const DEPTH_GAIN: f32 = 0.2;
 /// Share of it that goes to the rate: critically damped, 2(2 − g) − 4√(1 − g).
 const DEPTH_RATE_GAIN: f32 = 0.022_291_2;
+/// Silence of the pressure sensor that the last rate still bridges: 5 s.
+const SILENCE_TICKS: u32 = 5 * TICK_HZ;
 /// Metres per 1e-7° of latitude, on a sphere of 6371 km.
 const M_PER_E7: f32 = 0.011_119_493;
 /// Micrometres per millimetre.
@@ -108,7 +110,7 @@ impl Navigator {
     fn take_pressure(&mut self, vehicle: &FlightVehicle, tick: u32, pressure_pa: Option<i32>) {
         let predicted = self.depth_m + self.depth_rate_m_s * TICK_S;
         let Some(pressure_pa) = pressure_pa else {
-            self.depth_m = predicted;
+            self.do_without_pressure(tick, predicted);
             return;
         };
         let measured = pressure_pa as f32 / (vehicle.density_kg_m3 * vehicle.gravity_m_s2);
@@ -120,6 +122,17 @@ impl Navigator {
             self.depth_rate_m_s += DEPTH_RATE_GAIN / TICK_S * innovation;
         }
         self.depth_tick = Some(tick);
+    }
+
+    /// A short silence is bridged at the last rate; in a long one the reduced model says how fast depth changes.
+    fn do_without_pressure(&mut self, tick: u32, predicted_m: f32) {
+        let silence_ticks = tick.saturating_sub(self.depth_tick.unwrap_or(0));
+        if silence_ticks > SILENCE_TICKS {
+            let pitch_rad = f32::from(self.attitude.pitch_cdeg) * RAD_PER_CDEG;
+            self.depth_rate_m_s = self.water.w_m_s * math::cos(pitch_rad) - self.water.u_m_s * math::sin(pitch_rad);
+        }
+        // Above the surface there is no depth.
+        self.depth_m = if predicted_m > 0.0 { predicted_m } else { 0.0 };
     }
 
     fn dead_reckon(&mut self, vehicle: &FlightVehicle, vbd_ul: i32) {
@@ -210,6 +223,35 @@ mod tests {
         }
         assert!((navigator.depth_rate_m_s - 0.3).abs() < 1e-3);
         assert!((navigator.depth_m - 0.3 * 0.25 * 399.0).abs() < 1e-2);
+    }
+
+    /// Diving at the polar's 0.44 m/s when pressure falls silent, then light and nose up: the model follows both.
+    #[test]
+    fn without_pressure_the_model_keeps_track_of_depth() {
+        let file = file();
+        let table = TrimTable::parse(&file).unwrap();
+        let mut navigator = Navigator::default();
+        let sink_m_s = 0.77 * 35_f32.to_radians().sin();
+        let depth_at = |tick: u32| sink_m_s * TICK_S * tick as f32;
+        for tick in 0..800 {
+            navigator.update(table.vehicle(), tick, &at((depth_at(tick) * 9_810.0) as i32, 0), false);
+        }
+        let silent = Measurements { pressure_pa: None, ..at(0, 0) };
+        for tick in 800..1_200 {
+            navigator.update(table.vehicle(), tick, &silent, false);
+        }
+        assert!(
+            (navigator.depth_m - depth_at(1_199)).abs() < 0.5,
+            "{} m, {} m in truth",
+            navigator.depth_m,
+            depth_at(1_199)
+        );
+        let mut rising = Measurements { vbd_ul: 212_900, ..silent };
+        rising.attitude.as_mut().unwrap().pitch_cdeg = 3_378;
+        for tick in 1_200..3_000 {
+            navigator.update(table.vehicle(), tick, &rising, false);
+        }
+        assert_eq!(navigator.depth_m, 0.0, "at the surface, and not above it");
     }
 
     #[test]

@@ -108,7 +108,7 @@ fn a_silent_pressure_sensor_aborts_the_mission_and_it_comes_up() {
     assert_eq!(short.outcome, Outcome::Completed, "half of the time that the controller waits");
     let mut depth_m = f64::MAX;
     let long = fly_with(1, |_| {}, |flying| flying.faults = gap(1e9), |tick| depth_m = tick.state.position_m.z);
-    assert_eq!(long.aborts, ["StaleDepth"]);
+    assert_eq!((long.outcome, long.aborts), (Outcome::Aborted, vec!["StaleDepth".to_string()]));
     assert!(depth_m < 1.0, "back at the surface, not {depth_m} m deep");
 }
 

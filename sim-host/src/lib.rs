@@ -27,6 +27,7 @@
 //! | cross flow: attached law below the stall, drag of the plan view across, never gives energy | `tests/crossflow.rs` | equal bits; 1e-12; sign |
 //! | the paper's trim, Tables 1 and 2, eqs (14)–(16) = 3×3 system = exact helix | `tests/trim.rs`, `tests/stability.rs` | printed digits; 1e-9 |
 //! | electrical energy of the pump over p ΔV | `tests/devices.rs` | fielded efficiencies; 1e-9 for p ΔV itself |
+//! | linearisation by dual numbers against central differences | `tests/stability.rs` | 1e-7 relative: the differences' own error |
 //! | Seawing's published spiral | `tests/seawing.rs` | 2 %: published digits, another drag law |
 
 pub mod cli;

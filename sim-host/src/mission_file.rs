@@ -12,6 +12,9 @@ use crate::toml_file::{self, FileError, Rule, Section};
 const EMBEDDED: &[(&str, &str, &str)] =
     &[("default", "missions/default.toml", include_str!("../missions/default.toml"))];
 
+/// Metres per degree of latitude, on the sphere of 6371 km that the controller uses.
+pub const M_PER_DEG: f64 = 111_194.93;
+
 /// Longest path to a vehicle, characters.
 const PATH_CHARS: usize = 4096;
 /// Deepest depth a file may name, m.

@@ -10,9 +10,8 @@ use shared::{
 };
 
 use super::{Record, Sample};
+use crate::mission_file::M_PER_DEG;
 
-/// Metres per degree of latitude, on the sphere of 6371 km that the controller uses.
-const M_PER_DEG: f64 = 111_194.93;
 /// Pascals per decibar.
 const PA_PER_DBAR: f64 = 1e4;
 /// Depth below which a vehicle in recovery still ascends, m.

@@ -11,7 +11,7 @@ use shared::device::{GpsFix, Measurements, TICK_HZ};
 
 use super::{FlyingVehicle, TICK_S, actuators::Actuators, faults::Instrument};
 use crate::{
-    mission_file::Start,
+    mission_file::{M_PER_DEG, Start},
     ocean::Sample,
     plant::{State, rotation_from_quaternion},
 };
@@ -27,8 +27,6 @@ const CLEAR_M: f64 = 0.05;
 const GPS_MEMORY_S: u32 = 20;
 /// Steps of a 12-bit potentiometer over its travel.
 const POT_STEPS: f64 = 4096.0;
-/// Metres per degree of latitude, on the sphere that the controller uses.
-const M_PER_DEG: f64 = 111_194.93;
 
 /// The instruments of one vehicle.
 #[derive(Clone, Debug)]

@@ -38,6 +38,7 @@ pub mod flight;
 pub mod helix;
 #[cfg(unix)]
 pub mod link;
+pub mod locus;
 pub mod mission_file;
 pub mod modes;
 pub mod ocean;

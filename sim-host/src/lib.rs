@@ -42,6 +42,7 @@ pub mod locus;
 pub mod mission_file;
 pub mod modes;
 pub mod ocean;
+pub mod paper;
 pub mod pilot;
 pub mod plant;
 pub mod real;

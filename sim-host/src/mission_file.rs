@@ -55,14 +55,18 @@ impl MissionFile {
     /// # Errors
     /// The first mistake, with its place and what would be right.
     pub fn from_toml(text: &str, source_name: &str) -> Result<Self, FileError> {
-        toml_file::read(text, source_name, |file| Self {
-            vehicle: file.text("vehicle", PATH_CHARS),
-            start: file.section("start", start),
-            mission: file.section("mission", mission),
-            parameters: file.optional_section("parameters", parameters).unwrap_or_default(),
-            file: source_name.into(),
-            text: text.into(),
-        })
+        let file = toml_file::read(text, source_name, read)?;
+        Ok(Self { file: source_name.into(), text: text.into(), ..file })
+    }
+
+    /// The JSON Schema of mission files: with it an editor completes and checks them.
+    #[must_use]
+    pub fn schema() -> serde_json::Value {
+        let mut schema = toml_file::schema("a glider's mission", read);
+        for row in ROWS {
+            schema["properties"]["parameters"]["properties"][row.name]["description"] = row.about.trim().into();
+        }
+        schema
     }
 
     /// Reads an embedded mission by its name, or else a file by its path.
@@ -80,6 +84,17 @@ impl MissionFile {
     #[must_use]
     pub fn mistake(&self, dotted_key: &str, message: String) -> FileError {
         FileError { file: self.file.clone(), place: toml_file::place_of(&self.text, dotted_key), message }
+    }
+}
+
+fn read(file: &mut Section<'_>) -> MissionFile {
+    MissionFile {
+        vehicle: file.text("vehicle", PATH_CHARS),
+        start: file.section("start", start),
+        mission: file.section("mission", mission),
+        parameters: file.optional_section("parameters", parameters).unwrap_or_default(),
+        file: String::new(),
+        text: String::new(),
     }
 }
 

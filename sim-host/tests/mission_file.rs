@@ -79,3 +79,21 @@ fn mistakes_are_answered_with_their_place() {
         assert_eq!(mistake(passage, replacement), expected);
     }
 }
+
+/// What an editor offers and requires is what the reader reads: the default mission, key by key.
+#[test]
+fn the_schema_knows_every_key_of_the_default_mission() {
+    let schema = MissionFile::schema();
+    let sections = &schema["properties"];
+    let text = include_str!("../missions/default.toml");
+    let document = text.parse::<toml_edit::DocumentMut>().unwrap();
+    for (section, table) in document.iter().filter_map(|(key, item)| Some((key, item.as_table()?))) {
+        for (key, _) in table.iter() {
+            assert!(sections[section]["properties"][key].is_object(), "{section}.{key}");
+        }
+    }
+    assert!(sections["mission"]["required"].as_array().unwrap().contains(&"yos".into()));
+    let period = &sections["parameters"]["properties"]["pitch_period_s"];
+    assert_eq!((&period["minimum"], &period["default"]), (&2.into(), &20.into()));
+    assert!(period["description"].as_str().unwrap().contains("pitch corrections"));
+}

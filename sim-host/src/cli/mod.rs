@@ -2,6 +2,7 @@
 
 mod fly;
 mod progress;
+mod schema;
 mod stability;
 mod table;
 mod trim;
@@ -38,6 +39,8 @@ enum Command {
     Table(table::Args),
     /// Draw a three-view to scale and the forces of a steady glide, as SVG
     Draw(trim::DrawArgs),
+    /// Print the JSON Schema of a kind of file, for editors that complete and check it
+    Schema(schema::Args),
     /// Put one state through the equations: JSON from stdin, JSON to stdout
     Eval(EvalArgs),
 }
@@ -61,6 +64,7 @@ pub fn main() -> ExitCode {
         Command::Modes(args) => stability::run_modes(&args),
         Command::Table(args) => table::run(&args),
         Command::Draw(args) => trim::draw(&args),
+        Command::Schema(args) => schema::run(&args),
         Command::Eval(args) => run_eval(&args),
     };
     match result {

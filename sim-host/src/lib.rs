@@ -31,6 +31,7 @@
 //! | Seawing's published spiral | `tests/seawing.rs` | 2 %: published digits, another drag law |
 
 pub mod cli;
+pub mod coefficients;
 pub mod draw;
 pub mod eval;
 pub mod flight;

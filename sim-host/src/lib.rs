@@ -32,6 +32,7 @@
 
 pub mod chart;
 pub mod cli;
+pub mod coefficients;
 pub mod draw;
 pub mod eval;
 pub mod flight;

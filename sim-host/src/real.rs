@@ -31,6 +31,10 @@ pub trait Real:
     fn cos(self) -> Self;
     /// Angle of the vector (x, self).
     fn atan2(self, x: Self) -> Self;
+    /// Natural logarithm, of a positive number.
+    fn ln(self) -> Self;
+    /// A positive number to a constant power.
+    fn powf(self, exponent: f64) -> Self;
 
     /// √(x² + y²), and a constant 0 at the origin, where it has no derivative.
     fn hypot(x: Self, y: Self) -> Self {
@@ -58,6 +62,12 @@ impl Real for f64 {
     fn atan2(self, x: Self) -> Self {
         libm::atan2(self, x)
     }
+    fn ln(self) -> Self {
+        libm::log(self)
+    }
+    fn powf(self, exponent: f64) -> Self {
+        libm::pow(self, exponent)
+    }
 }
 
 impl<const N: usize> Real for DualSVec64<N> {
@@ -81,6 +91,13 @@ impl<const N: usize> Real for DualSVec64<N> {
         let square = self.re * self.re + x.re * x.re;
         Self::new(libm::atan2(self.re, x.re), self.eps * (x.re / square) - x.eps * (self.re / square))
     }
+    fn ln(self) -> Self {
+        Self::new(libm::log(self.re), self.eps * (1.0 / self.re))
+    }
+    fn powf(self, exponent: f64) -> Self {
+        let slope = exponent * libm::pow(self.re, exponent - 1.0);
+        Self::new(libm::pow(self.re, exponent), self.eps * slope)
+    }
 }
 
 #[cfg(test)]
@@ -97,6 +114,8 @@ mod tests {
             (Real::sin(x * y), DualNum::sin(&(x * y))),
             (Real::cos(x * y), DualNum::cos(&(x * y))),
             (Real::atan2(y, x), DualNum::atan2(&y, x)),
+            (Real::ln(x * x * x), DualNum::ln(&(x * x * x))),
+            (Real::powf(x, 1.5), DualNum::powf(&x, 1.5)),
         ];
         let both = |dual: DualSVec64<2>| dual.eps.unwrap_generic(nalgebra::Const::<2>, nalgebra::Const::<1>);
         for (ours, theirs) in pairs {

@@ -25,7 +25,7 @@ use sim_host::{
 
 fn record() -> Record {
     let start = Start { latitude_deg: 59.0, longitude_deg: 179.999, heading_deg: 0.0 };
-    let water = Water { density_kg_m3: 1025.0, gravity_m_s2: 9.81 };
+    let water = Water { density_kg_m3: 1025.0, gravity_m_s2: 9.81, kinematic_viscosity_m2_s: 1e-6 };
     Record { start, water, samples: (0..40).map(sample).collect() }
 }
 

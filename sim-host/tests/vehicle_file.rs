@@ -93,11 +93,24 @@ fn a_missing_key_or_section_is_named() {
     assert_eq!(mistake(&text), place(&text, "{ zero = 0, q = 0 }") + expected);
     let text = with("[water]\ndensity_kg_m3 = 1000 # I\ngravity_m_s2 = 9.81 # I\n", "");
     assert_eq!(mistake(&text), "v.toml:1:1: missing section `water`");
-    let from = SLOCUM.find("[added_mass]").unwrap();
-    let to = SLOCUM.find("# Coefficients come").unwrap();
-    let text = SLOCUM.replace(&SLOCUM[from..to], "");
-    let expected = "section `added_mass` must be given: this version does not derive it from the geometry";
-    assert_eq!(mistake(&text), format!("v.toml:1:1: {expected}"));
+}
+
+#[test]
+fn coefficients_and_added_mass_may_each_come_from_the_geometry() {
+    let without = |from: &str, to: &str| {
+        let [from, to] = [from, to].map(|passage| SLOCUM.find(passage).unwrap());
+        Vehicle::from_toml(&SLOCUM.replace(&SLOCUM[from..to], ""), "v.toml").unwrap()
+    };
+    let given = slocum();
+    let light = without("[added_mass]", "# Coefficients come");
+    assert_eq!(light.hydrodynamics, given.hydrodynamics);
+    // Lamb's factors of a spheroid of fineness 7: 0.036 along, 0.933 across, of 54.1 kg; the wing adds to heave.
+    assert!((light.added_mass.mass_kg.m11 - 0.036 * 54.1).abs() < 0.05);
+    assert!(light.added_mass.mass_kg.m33 > light.added_mass.mass_kg.m22);
+    let estimated = without("[hydrodynamics]", "[buoyancy]");
+    assert_eq!(estimated.added_mass, given.added_mass);
+    assert_ne!(estimated.hydrodynamics, given.hydrodynamics);
+    assert_ne!(estimated.hash(), given.hash());
 }
 
 #[test]
@@ -176,7 +189,10 @@ fn what_is_not_toml_is_one_line_too() {
     assert_eq!(mistake("name = \"x\"\nname = \"y\"\n"), "v.toml:2:1: duplicate key");
     let unreadable = Vehicle::load("no-such-vehicle").unwrap_err().to_string();
     assert!(unreadable.starts_with("no-such-vehicle: not a readable file ("), "{unreadable}");
-    assert!(unreadable.ends_with("), nor an embedded one (`slocum-paper`, `seawing`)"), "{unreadable}");
+    assert!(
+        unreadable.ends_with("), nor an embedded one (`slocum-paper`, `from-geometry`, `seawing`)"),
+        "{unreadable}"
+    );
 }
 
 #[test]

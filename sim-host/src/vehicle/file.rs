@@ -3,7 +3,11 @@
 //! `[hydrodynamics]` may leave out `area_m2`, `span_m` and `chord_m` (then the wing's), `moment_frame` (then `"body"`) and
 //! the coefficients that symmetry makes small: `lift.zero`, `lift.q`, `pitch.zero`, `side.p`, `side.r`, `roll.r`, `yaw.p`
 //! (then 0). Every other coefficient must be there. `[buoyancy]` may leave out `compressibility_per_pa`, `thermal_expansion_per_c`
-//! (then 0) and `reference_temperature_c` (then 15). `[crossflow]` may leave out its areas (then the geometry's).
+//! (then 0) and `reference_temperature_c` (then 15). `[crossflow]` may leave out its areas (then the geometry's). `[water]` may
+//! leave out `kinematic_viscosity_m2_s` (then 1e-6: fresh water at 20 °C; sea water at 5 °C has 1.6e-6).
+//!
+//! `[hydrodynamics]` and `[added_mass]` may be left out whole: they then come from the geometry ([`crate::coefficients`]), at the
+//! nominal speed and the mean of dive and climb.
 //!
 //! `[buoyancy]` may say how its engine is built and `[moving_mass]` how it is driven: [`super::Engine`] and [`super::Drive`].
 
@@ -11,13 +15,17 @@ use nalgebra::{Matrix3, Matrix6, Vector3};
 
 use super::{
     AddedMass, Body, Buoyancy, Crossflow, Drive, Elasticity, Energy, Engine, Fin, Hull, Hydrodynamics, Limits,
-    MomentFrame, MovingMass, Vehicle, Water, Wing,
+    MomentFrame, MovingMass, Vehicle, Water, Wing, plan_area_m2, side_area_m2,
 };
-use crate::toml_file::{self, FileError, Rule, Section};
+use crate::{
+    coefficients::{Shape, Stream},
+    toml_file::{self, FileError, Rule, Section},
+};
 
 /// Vehicles that need no file: name, file it comes from, text.
 const EMBEDDED: &[(&str, &str, &str)] = &[
     ("slocum-paper", "vehicles/slocum-paper.toml", include_str!("../../vehicles/slocum-paper.toml")),
+    ("from-geometry", "vehicles/from-geometry.toml", include_str!("../../vehicles/from-geometry.toml")),
     ("seawing", "vehicles/seawing.toml", include_str!("../../vehicles/seawing.toml")),
 ];
 
@@ -49,28 +57,32 @@ fn vehicle(file: &mut Section<'_>) -> Vehicle {
     let hull = file.section("hull", hull);
     let wing = file.section("wing", wing);
     let fin = file.section("fin", fin);
+    let water = file.section("water", water);
+    let nominal_speed_m_s = file.number("nominal_speed_m_s", Rule::Positive);
+    let shape = Shape { hull: hull.clone(), wing: wing.clone(), fin: fin.clone() };
+    let stream = Stream {
+        speed_m_s: nominal_speed_m_s,
+        kinematic_viscosity_m2_s: water.kinematic_viscosity_m2_s,
+        lift_coefficient: 0.0,
+    };
+    let added_mass = file.optional_section("added_mass", added_mass);
+    let hydrodynamics = file.optional_section("hydrodynamics", |section| hydrodynamics(section, &hull, &wing));
     Vehicle {
         name: file.text("name", NAME_CHARS),
-        nominal_speed_m_s: file.number("nominal_speed_m_s", Rule::Positive),
+        nominal_speed_m_s,
         body: file.section("body", body),
         moving_mass: file.section("moving_mass", moving_mass),
-        added_mass: given(file, "added_mass", added_mass),
-        hydrodynamics: given(file, "hydrodynamics", |section| hydrodynamics(section, &hull, &wing)),
+        added_mass: added_mass.unwrap_or_else(|| shape.added_mass(water.density_kg_m3).into()),
+        hydrodynamics: hydrodynamics.unwrap_or_else(|| shape.coefficients(&stream).hydrodynamics(MomentFrame::Body)),
         crossflow: file.optional_section("crossflow", |section| crossflow(section, &hull, &wing, &fin)),
         buoyancy: file.optional_section("buoyancy", buoyancy),
         energy: file.optional_section("energy", energy),
         limits: file.optional_section("limits", limits),
-        water: file.section("water", water),
+        water,
         hull,
         wing,
         fin,
     }
-}
-
-/// A section whose values could also come from the geometry, which this version does not do.
-fn given<T>(file: &mut Section<'_>, key: &'static str, build: impl FnOnce(&mut Section<'_>) -> T) -> T {
-    let missing = format!("section `{key}` must be given: this version does not derive it from the geometry");
-    file.section_or_else(key, missing, build)
 }
 
 fn hull(hull: &mut Section<'_>) -> Hull {
@@ -238,14 +250,12 @@ fn energy(energy: &mut Section<'_>) -> Energy {
 
 /// Areas default to the geometry's: the hull's side view with the wing outside it, or with the fin.
 fn crossflow(crossflow: &mut Section<'_>, hull: &Hull, wing: &Wing, fin: &Fin) -> Crossflow {
-    let hull_m2 = hull.length_m * hull.diameter_m();
-    let exposed_wing_m2 = wing.chord_m(hull) * (wing.span_m(hull) - hull.diameter_m());
     let stall_deg = crossflow.number("stall_deg", Rule::Within(1.0, 89.0));
     let least = if stall_deg.is_finite() { stall_deg } else { 1.0 };
     Crossflow {
         drag_coefficient: crossflow.number("drag_coefficient", Rule::Positive),
-        plan_area_m2: crossflow.number_or("plan_area_m2", Rule::Positive, hull_m2 + exposed_wing_m2),
-        side_area_m2: crossflow.number_or("side_area_m2", Rule::Positive, hull_m2 + fin.area_m2(hull)),
+        plan_area_m2: crossflow.number_or("plan_area_m2", Rule::Positive, plan_area_m2(hull, wing)),
+        side_area_m2: crossflow.number_or("side_area_m2", Rule::Positive, side_area_m2(hull, fin)),
         stall_deg,
         separated_deg: crossflow.number("separated_deg", Rule::Within(least, 90.0)),
     }
@@ -261,6 +271,8 @@ fn water(water: &mut Section<'_>) -> Water {
     Water {
         density_kg_m3: water.number("density_kg_m3", Rule::Positive),
         gravity_m_s2: water.number("gravity_m_s2", Rule::Positive),
+        // Water between −2 and 100 °C has 0.3e-6 to 2e-6: the bounds keep out a slip of units.
+        kinematic_viscosity_m2_s: water.number_or("kinematic_viscosity_m2_s", Rule::Within(1e-7, 1e-5), 1e-6),
     }
 }
 

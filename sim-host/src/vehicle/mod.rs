@@ -8,6 +8,7 @@ mod hash;
 
 pub use drive::{AxialDrive, Drive, RotationDrive};
 pub use engine::{Engine, EngineKind};
+pub use geometry::{plan_area_m2, side_area_m2};
 
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
@@ -47,53 +48,45 @@ pub struct Vehicle {
 
 /// A slender body of revolution.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Hull {
+pub struct Hull<T = f64> {
     /// l, m.
-    pub length_m: f64,
+    pub length_m: T,
     /// f = l/d.
-    pub fineness: f64,
-}
-
-impl Hull {
-    /// d = l/f, m.
-    #[must_use]
-    pub fn diameter_m(&self) -> f64 {
-        self.length_m / self.fineness
-    }
+    pub fineness: T,
 }
 
 /// The wing.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Wing {
+pub struct Wing<T = f64> {
     /// AR = b²/S.
-    pub aspect_ratio: f64,
+    pub aspect_ratio: T,
     /// 𝒷 = b/d.
-    pub span_ratio: f64,
+    pub span_ratio: T,
     /// t̄ = t/c̄.
-    pub thickness_ratio: f64,
+    pub thickness_ratio: T,
     /// l_w: quarter chord aft of the centre of buoyancy, over the hull's length.
-    pub position: f64,
+    pub position: T,
     /// Sweep, deg, back positive.
-    pub sweep_deg: f64,
+    pub sweep_deg: T,
     /// Dihedral, deg, tips up positive.
-    pub dihedral_deg: f64,
+    pub dihedral_deg: T,
     /// Height above the hull's axis, m, up positive.
-    pub height_m: f64,
+    pub height_m: T,
 }
 
 /// The vertical fin.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Fin {
+pub struct Fin<T = f64> {
     /// S_v over the hull's frontal area πd²/4.
-    pub area_ratio: f64,
+    pub area_ratio: T,
     /// l_v: aft of the centre of buoyancy, over the hull's length.
-    pub position: f64,
+    pub position: T,
     /// Aspect ratio.
-    pub aspect_ratio: f64,
+    pub aspect_ratio: T,
     /// Thickness over chord.
-    pub thickness_ratio: f64,
+    pub thickness_ratio: T,
     /// Height of its centre above the hull's axis, m, up positive.
-    pub height_m: f64,
+    pub height_m: T,
 }
 
 /// The rigid body without the moving mass.
@@ -259,6 +252,9 @@ pub struct Water {
     pub density_kg_m3: f64,
     /// g, m/s².
     pub gravity_m_s2: f64,
+    /// ν, m²/s: sets Reynolds numbers. It flies only through coefficients from geometry, and these are in the fingerprint.
+    #[serde(skip)]
+    pub kinematic_viscosity_m2_s: f64,
 }
 
 impl Vehicle {

@@ -33,6 +33,7 @@
 pub mod cli;
 pub mod draw;
 pub mod eval;
+pub mod faults_file;
 pub mod flight;
 pub mod helix;
 #[cfg(unix)]

@@ -35,6 +35,7 @@ pub mod cli;
 pub mod coefficients;
 pub mod draw;
 pub mod eval;
+pub mod faults_file;
 pub mod flight;
 pub mod helix;
 #[cfg(unix)]

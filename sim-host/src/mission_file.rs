@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, de::value::MapDeserializer};
 use shared::{
-    mission::{MAX_HEADINGS, Mission},
+    mission::{MAX_ALTITUDE_MM, MAX_HEADINGS, Mission},
     parameters::{Parameters, ROWS},
 };
 
@@ -19,6 +19,8 @@ pub const M_PER_DEG: f64 = 111_194.93;
 const PATH_CHARS: usize = 4096;
 /// Deepest depth a file may name, m.
 const DEEPEST_M: f64 = 12_000.0;
+/// Greatest height above the floor that a mission may ask for, m.
+const MAX_ALTITUDE_M: f64 = MAX_ALTITUDE_MM as f64 / 1e3;
 /// Largest net mass that the mission's integers hold, kg.
 const NET_MASS_KG: f64 = 32.0;
 
@@ -126,6 +128,7 @@ fn mission(mission: &mut Section<'_>) -> Mission {
             .map(|heading| scaled::<u16>(heading.rem_euclid(360.0), 1e2) % 36_000)
             .collect(),
         surface_time_s: whole(mission.integer("surface_time_s", 0..=i64::from(u16::MAX))),
+        altitude_mm: scaled(mission.number_or("altitude_m", Rule::Within(0.0, MAX_ALTITUDE_M), 0.0), 1e3),
         abort_depth_mm: scaled(abort_depth_m, 1e3),
         max_duration_s: whole(mission.integer("max_duration_s", 1..=i64::from(u32::MAX))),
     }

@@ -28,6 +28,7 @@ fn the_default_mission_is_two_yos_to_200_m_with_a_turn() {
         climb_net_mass_g: -250,
         headings_cdeg: [3_000, 6_000, 6_000, 6_000].into_iter().collect(),
         surface_time_s: 60,
+        altitude_mm: 0,
         abort_depth_mm: 215_000,
         max_duration_s: 10_800,
     };
@@ -72,6 +73,11 @@ fn mistakes_are_answered_with_their_place() {
             "[30, 60, 60, 60]",
             "[]",
             "m.toml:18:16: `mission.headings_deg` is [], but must be 1 to 32 numbers, each a number from -360 to 360",
+        ),
+        (
+            "yos = 2",
+            "yos = 2\naltitude_m = 101",
+            "m.toml:12:14: `mission.altitude_m` is 101, but must be a number from 0 to 100",
         ),
         ("= 59.0", "= 95", "m.toml:6:16: `start.latitude_deg` is 95, but must be a number from -90 to 90"),
     ];

@@ -3,6 +3,13 @@
 use nalgebra::Complex;
 use serde::Serialize;
 
+use crate::{
+    coefficients::{Anchoring, Parameter, Shape, Study},
+    modes::{Modes, RollKinematics, modes},
+    trim::{Condition, Scale, glide},
+    vehicle::Vehicle,
+};
+
 /// Steps of the parameter between two points that are kept.
 const SUB_STEPS: usize = 8;
 
@@ -13,6 +20,91 @@ pub struct Locus {
     pub values: Vec<f64>,
     /// One per mode: [re, im] at each value, 1/s; no branch jumps to another one.
     pub branches: [Vec<[f64; 2]>; 4],
+}
+
+/// What is varied.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Varied {
+    /// A geometric parameter; the coefficients follow from it.
+    Shape(Parameter),
+    /// C_lβ alone: the effect of sweep, dihedral and height of the wing together.
+    RollBySideslip,
+}
+
+/// Both root loci of one study.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Loci {
+    /// Motion in the plane of symmetry.
+    pub longitudinal: Locus,
+    /// Motion out of it.
+    pub lateral: Locus,
+}
+
+/// Root loci of a vehicle whose shape or C_lβ varies, trimmed anew at each value.
+///
+/// # Errors
+/// One line that says at which value there is no such vehicle or glide.
+pub fn vary(
+    study: &Study<'_>,
+    varied: Varied,
+    range: [f64; 2],
+    points: usize,
+    condition: Condition,
+    scale: Scale,
+    roll: RollKinematics,
+) -> Result<Loci, String> {
+    let lift_coefficient = glide(study.vehicle, condition, scale)?.lift_coefficient;
+    let modes_at = |value: f64| -> Result<Modes, String> {
+        let vehicle = varied.vehicle(study, value, lift_coefficient)?;
+        let glide = glide(&vehicle, condition, scale)?;
+        Ok(modes(&vehicle, &glide, roll))
+    };
+    let modes_at = |value| modes_at(value).map_err(|error| format!("{varied} = {value}: {error}"));
+    Ok(Loci {
+        longitudinal: follow(range, points, |value| Ok(modes_at(value)?.longitudinal.eigenvalues))?,
+        lateral: follow(range, points, |value| Ok(modes_at(value)?.lateral.eigenvalues))?,
+    })
+}
+
+impl Varied {
+    /// The vehicle at a value of what is varied, its coefficients those of the nominal speed.
+    ///
+    /// Anchored ones are taken without lift, so that the nominal value gives the vehicle's own; others with the lift coefficient.
+    ///
+    /// # Errors
+    /// One line if there is no such vehicle.
+    pub fn vehicle(self, study: &Study<'_>, value: f64, lift_coefficient: f64) -> Result<Vehicle, String> {
+        let mut shape = Shape::of(study.vehicle);
+        if let Self::Shape(parameter) = self {
+            *parameter.of(&mut shape) = value;
+        }
+        let lift_coefficient = match study.anchoring {
+            Anchoring::Anchored => 0.0,
+            Anchoring::Unanchored => lift_coefficient,
+        };
+        let mut vehicle = study.vehicle(&shape, study.vehicle.nominal_speed_m_s, lift_coefficient)?;
+        if self == Self::RollBySideslip {
+            vehicle.hydrodynamics.c_roll_beta = value;
+        }
+        Ok(vehicle)
+    }
+}
+
+impl std::fmt::Display for Varied {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Shape(parameter) => parameter.fmt(f),
+            Self::RollBySideslip => f.write_str("hydrodynamics.roll.beta"),
+        }
+    }
+}
+
+impl std::str::FromStr for Varied {
+    type Err = String;
+
+    fn from_str(key: &str) -> Result<Self, String> {
+        if key == Self::RollBySideslip.to_string() { Ok(Self::RollBySideslip) } else { key.parse().map(Self::Shape) }
+    }
 }
 
 /// Follows eigenvalues from one value of a parameter to another, over `points` evenly spaced values (at least two).

@@ -1,5 +1,7 @@
 //! A figure: panels of lines and places side by side, as one SVG with its text as text.
 
+use std::io::{self, Write};
+
 use svg::{
     Document, Node,
     node::element::{Rectangle, SVG, Style, Text},
@@ -181,6 +183,25 @@ impl Figure {
             top += row_height(&row);
         }
         sheet.to_string()
+    }
+}
+
+impl Figure {
+    /// Its lines as CSV: panel, line, x, y; nothing where a line breaks.
+    ///
+    /// # Errors
+    /// As the writer.
+    pub fn write_csv(&self, out: &mut dyn Write) -> io::Result<()> {
+        let mut csv = csv::Writer::from_writer(out);
+        csv.write_record(["panel", "line", "x", "y"])?;
+        for panel in &self.panels {
+            let named = panel.lines.iter().filter_map(|line| Some((line.name.as_ref()?, &line.points)));
+            for (name, [x, y]) in named.flat_map(|(name, points)| points.iter().map(move |point| (name, point))) {
+                let y = if y.is_finite() { y.to_string() } else { String::new() };
+                csv.write_record([&panel.title, name, &x.to_string(), &y])?;
+            }
+        }
+        csv.flush()
     }
 }
 

@@ -1,6 +1,8 @@
 //! The command line of `glider`: answers on stdout, everything else on stderr, one clear line on bad input.
 
 mod fly;
+mod locus;
+mod paper;
 mod progress;
 mod schema;
 mod stability;
@@ -35,6 +37,10 @@ enum Command {
     Turn(stability::TurnArgs),
     /// Disturb a glide: eigenvalues and modes
     Modes(stability::ModesArgs),
+    /// Vary the shape: how the modes move, as root loci
+    Locus(locus::Args),
+    /// Reproduce every figure and table of the paper, side by side with what it prints
+    Paper(paper::Args),
     /// Generate the trim table that flies
     Table(table::Args),
     /// Draw a three-view to scale and the forces of a steady glide, as SVG
@@ -62,6 +68,8 @@ pub fn main() -> ExitCode {
         Command::Trim(args) => trim::run(&args),
         Command::Turn(args) => stability::turn(&args),
         Command::Modes(args) => stability::run_modes(&args),
+        Command::Locus(args) => locus::run(&args),
+        Command::Paper(args) => paper::run(&args),
         Command::Table(args) => table::run(&args),
         Command::Draw(args) => trim::draw(&args),
         Command::Schema(args) => schema::run(&args),

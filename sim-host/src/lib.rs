@@ -41,6 +41,7 @@ pub mod link;
 pub mod mission_file;
 pub mod modes;
 pub mod ocean;
+pub mod performance;
 pub mod pilot;
 pub mod plant;
 pub mod real;

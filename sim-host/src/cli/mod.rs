@@ -1,7 +1,10 @@
 //! The command line of `glider`: answers on stdout, everything else on stderr, one clear line on bad input.
 
+mod endurance;
 mod fly;
+mod polar;
 mod progress;
+mod size;
 mod stability;
 mod table;
 mod trim;
@@ -34,6 +37,12 @@ enum Command {
     Turn(stability::TurnArgs),
     /// Disturb a glide: eigenvalues and modes
     Modes(stability::ModesArgs),
+    /// Mark the drag polar: flattest glide and maximum horizontal speed
+    Polar(polar::Args),
+    /// Size the buoyancy engine: the lung that a speed takes, for this shape or another
+    Size(size::Args),
+    /// Count the dives of a battery: range and endurance, ideal and realistic
+    Endurance(endurance::Args),
     /// Generate the trim table that flies
     Table(table::Args),
     /// Draw a three-view to scale and the forces of a steady glide, as SVG
@@ -59,6 +68,9 @@ pub fn main() -> ExitCode {
         Command::Trim(args) => trim::run(&args),
         Command::Turn(args) => stability::turn(&args),
         Command::Modes(args) => stability::run_modes(&args),
+        Command::Polar(args) => polar::run(&args),
+        Command::Size(args) => size::run(&args),
+        Command::Endurance(args) => endurance::run(&args),
         Command::Table(args) => table::run(&args),
         Command::Draw(args) => trim::draw(&args),
         Command::Eval(args) => run_eval(&args),

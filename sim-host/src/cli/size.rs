@@ -125,7 +125,8 @@ pub(super) fn run(args: &Args) -> Result<(), String> {
         let parameter: Parameter = key.parse()?;
         let (from, to) = (number(from)?, number(to)?);
         let point = |i: u32| {
-            let value = from + (to - from) * f64::from(i) / f64::from(POINTS - 1);
+            let share = f64::from(i) / f64::from(POINTS - 1);
+            let value = from * (1.0 - share) + to * share;
             let changes: Vec<_> = args.shape.set.iter().copied().chain([(parameter, value)]).collect();
             Ok(Point { value, size: size(&args.shape.with(&vehicle, &changes)?)? })
         };

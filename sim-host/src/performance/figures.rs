@@ -48,7 +48,8 @@ const POINTS: u32 = 161;
 
 /// Points from one value to another.
 fn along([from, to]: [f64; 2]) -> impl Iterator<Item = f64> {
-    (0..POINTS).map(move |i| from + (to - from) * f64::from(i) / f64::from(POINTS - 1))
+    let share = |i: u32| f64::from(i) / f64::from(POINTS - 1);
+    (0..POINTS).map(move |i| from * (1.0 - share(i)) + to * share(i))
 }
 
 fn curve(label: impl Into<String>, points: impl Iterator<Item = [f64; 2]>) -> Curve {

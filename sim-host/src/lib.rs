@@ -28,6 +28,10 @@
 //! | the paper's trim, Tables 1 and 2, eqs (14)–(16) = 3×3 system = exact helix | `tests/trim.rs`, `tests/stability.rs` | printed digits; 1e-9 |
 //! | electrical energy of the pump over p ΔV | `tests/devices.rs` | fielded efficiencies; 1e-9 for p ΔV itself |
 //! | linearisation by dual numbers against central differences | `tests/stability.rs` | 1e-7 relative: the differences' own error |
+//! | geometry to coefficients: spheroid, strips, thin plates, scaling; exact derivatives | `tests/coefficients.rs` | 1e-9: quadrature; 1e-7: differences |
+//! | polar, eqs (10)–(13), (17) and the ideal range, against searches and as printed | `tests/performance.rs` | 1e-9; 1e-12: rounding |
+//! | a realistic yo against the flown one | `tests/performance.rs` | 1 %: noise, an apogee that is not symmetric |
+//! | the paper's trends with geometry, and where they do not hold | `tests/trends.rs` | sign |
 //! | Seawing's published spiral | `tests/seawing.rs` | 2 %: published digits, another drag law |
 
 pub mod chart;
@@ -45,6 +49,7 @@ pub mod mission_file;
 pub mod modes;
 pub mod ocean;
 pub mod paper;
+pub mod performance;
 pub mod pilot;
 pub mod plant;
 pub mod real;

@@ -1,10 +1,13 @@
 //! The command line of `glider`: answers on stdout, everything else on stderr, one clear line on bad input.
 
+mod endurance;
 mod fly;
 mod locus;
 mod paper;
+mod polar;
 mod progress;
 mod schema;
+mod size;
 mod stability;
 mod table;
 mod trim;
@@ -41,6 +44,12 @@ enum Command {
     Locus(locus::Args),
     /// Reproduce every figure and table of the paper, side by side with what it prints
     Paper(paper::Args),
+    /// Mark the drag polar: flattest glide and maximum horizontal speed
+    Polar(polar::Args),
+    /// Size the buoyancy engine: the lung that a speed takes, for this shape or another
+    Size(size::Args),
+    /// Count the dives of a battery: range and endurance, ideal and realistic
+    Endurance(endurance::Args),
     /// Generate the trim table that flies
     Table(table::Args),
     /// Draw a three-view to scale and the forces of a steady glide, as SVG
@@ -70,6 +79,9 @@ pub fn main() -> ExitCode {
         Command::Modes(args) => stability::run_modes(&args),
         Command::Locus(args) => locus::run(&args),
         Command::Paper(args) => paper::run(&args),
+        Command::Polar(args) => polar::run(&args),
+        Command::Size(args) => size::run(&args),
+        Command::Endurance(args) => endurance::run(&args),
         Command::Table(args) => table::run(&args),
         Command::Draw(args) => trim::draw(&args),
         Command::Schema(args) => schema::run(&args),

@@ -133,6 +133,13 @@ impl<T: Real> Shape<T> {
         stream.speed_m_s * self.wing.chord_m(&self.hull) / stream.kinematic_viscosity_m2_s
     }
 
+    /// Reynolds number of the fin's chord; none without a fin.
+    #[must_use]
+    pub fn fin_reynolds(&self, stream: &Stream<T>) -> Option<T> {
+        let there = self.fin.area_ratio.value() > 0.0;
+        there.then(|| stream.speed_m_s * self.fin.chord_m(&self.hull) / stream.kinematic_viscosity_m2_s)
+    }
+
     /// C_D0: friction on the wetted areas with their form factors, referred to S.
     ///
     /// The hull's wetted area is the side of the cylinder, πdl; wing and fin have two sides outside the hull.
@@ -144,14 +151,13 @@ impl<T: Real> Shape<T> {
         let mut drag_m2 = friction_coefficient(self.hull_reynolds(stream), CRITICAL_REYNOLDS_HULL)
             * body_form_factor(c(1.0) / hull.fineness)
             * side_m2;
-        let mut add_plate = |area_m2: T, chord_m: T, thickness_ratio: T| {
-            let reynolds = stream.speed_m_s * chord_m / stream.kinematic_viscosity_m2_s;
+        let plate_m2 = |area_m2: T, reynolds: T, thickness_ratio: T| {
             let friction = friction_coefficient(reynolds, CRITICAL_REYNOLDS_WING);
-            drag_m2 += friction * section_form_factor(thickness_ratio) * c(2.0) * area_m2;
+            friction * section_form_factor(thickness_ratio) * c(2.0) * area_m2
         };
-        add_plate(wing.exposed_area_m2(hull), wing.chord_m(hull), wing.thickness_ratio);
-        if fin.area_ratio.value() > 0.0 {
-            add_plate(fin.area_m2(hull), fin.chord_m(hull), fin.thickness_ratio);
+        drag_m2 += plate_m2(wing.exposed_area_m2(hull), self.wing_reynolds(stream), wing.thickness_ratio);
+        if let Some(reynolds) = self.fin_reynolds(stream) {
+            drag_m2 += plate_m2(fin.area_m2(hull), reynolds, fin.thickness_ratio);
         }
         drag_m2 / wing.area_m2(hull)
     }

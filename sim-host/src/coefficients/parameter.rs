@@ -3,6 +3,7 @@
 use std::{fmt, str::FromStr};
 
 use super::Shape;
+use crate::toml_file::Rule;
 
 /// One number of a [`Shape`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,6 +63,29 @@ impl Parameter {
             Self::FinThicknessRatio => "fin.thickness_ratio",
             Self::FinHeight => "fin.height_m",
         }
+    }
+
+    /// What the vehicle file accepts for it.
+    #[must_use]
+    pub fn rule(self) -> Rule {
+        match self {
+            Self::HullLength | Self::WingAspectRatio | Self::FinAspectRatio => Rule::Positive,
+            Self::HullFineness | Self::WingSpanRatio => Rule::Above(1.0),
+            Self::WingThicknessRatio | Self::FinThicknessRatio => Rule::Within(0.0, 1.0),
+            Self::WingPosition | Self::FinPosition => Rule::Within(-1.0, 1.0),
+            Self::WingSweep | Self::WingDihedral => Rule::Within(-80.0, 80.0),
+            Self::WingHeight | Self::FinHeight => Rule::Finite,
+            Self::FinAreaRatio => Rule::NotNegative,
+        }
+    }
+
+    /// Whether a value is possible.
+    ///
+    /// # Errors
+    /// One line that says what would be right.
+    pub fn check(self, value: f64) -> Result<(), String> {
+        let rule = self.rule();
+        if rule.holds(value) { Ok(()) } else { Err(format!("`{self}` is {value}, but must be {rule}")) }
     }
 
     /// Where it stands in a shape.

@@ -34,6 +34,15 @@ impl BoundaryLayer {
     }
 }
 
+impl std::fmt::Display for BoundaryLayer {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.pad(match self {
+            Self::Laminar => "laminar",
+            Self::Turbulent => "turbulent",
+        })
+    }
+}
+
 /// C_f: mean friction of a plate, per wetted area.
 #[must_use]
 pub fn friction_coefficient<T: Real>(reynolds: T, critical: f64) -> T {

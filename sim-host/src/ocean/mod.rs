@@ -111,6 +111,12 @@ impl Ocean {
         Sample { around, salinity }
     }
 
+    /// The water column at a depth, without currents and waves.
+    #[must_use]
+    pub fn at_rest(&self, depth_m: f64) -> Sample {
+        self.column.at(depth_m, 0.0)
+    }
+
     /// Depth of the sea floor, m; none in an ocean without one.
     #[must_use]
     pub fn floor_depth_m(&self, north_m: f64, east_m: f64) -> Option<f64> {

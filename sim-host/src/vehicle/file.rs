@@ -18,7 +18,7 @@ use super::{
     MomentFrame, MovingMass, Vehicle, Water, Wing, plan_area_m2, side_area_m2,
 };
 use crate::{
-    coefficients::{Shape, Stream},
+    coefficients::{Parameter, Shape, Stream},
     toml_file::{self, FileError, Rule, Section},
 };
 
@@ -86,28 +86,31 @@ fn vehicle(file: &mut Section<'_>) -> Vehicle {
 }
 
 fn hull(hull: &mut Section<'_>) -> Hull {
-    Hull { length_m: hull.number("length_m", Rule::Positive), fineness: hull.number("fineness", Rule::Above(1.0)) }
+    Hull {
+        length_m: hull.number("length_m", Parameter::HullLength.rule()),
+        fineness: hull.number("fineness", Parameter::HullFineness.rule()),
+    }
 }
 
 fn wing(wing: &mut Section<'_>) -> Wing {
     Wing {
-        aspect_ratio: wing.number("aspect_ratio", Rule::Positive),
-        span_ratio: wing.number("span_ratio", Rule::Above(1.0)),
-        thickness_ratio: wing.number("thickness_ratio", Rule::Within(0.0, 1.0)),
-        position: wing.number("position", Rule::Within(-1.0, 1.0)),
-        sweep_deg: wing.number("sweep_deg", Rule::Within(-80.0, 80.0)),
-        dihedral_deg: wing.number("dihedral_deg", Rule::Within(-80.0, 80.0)),
-        height_m: wing.number("height_m", Rule::Finite),
+        aspect_ratio: wing.number("aspect_ratio", Parameter::WingAspectRatio.rule()),
+        span_ratio: wing.number("span_ratio", Parameter::WingSpanRatio.rule()),
+        thickness_ratio: wing.number("thickness_ratio", Parameter::WingThicknessRatio.rule()),
+        position: wing.number("position", Parameter::WingPosition.rule()),
+        sweep_deg: wing.number("sweep_deg", Parameter::WingSweep.rule()),
+        dihedral_deg: wing.number("dihedral_deg", Parameter::WingDihedral.rule()),
+        height_m: wing.number("height_m", Parameter::WingHeight.rule()),
     }
 }
 
 fn fin(fin: &mut Section<'_>) -> Fin {
     Fin {
-        area_ratio: fin.number("area_ratio", Rule::NotNegative),
-        position: fin.number("position", Rule::Within(-1.0, 1.0)),
-        aspect_ratio: fin.number("aspect_ratio", Rule::Positive),
-        thickness_ratio: fin.number("thickness_ratio", Rule::Within(0.0, 1.0)),
-        height_m: fin.number("height_m", Rule::Finite),
+        area_ratio: fin.number("area_ratio", Parameter::FinAreaRatio.rule()),
+        position: fin.number("position", Parameter::FinPosition.rule()),
+        aspect_ratio: fin.number("aspect_ratio", Parameter::FinAspectRatio.rule()),
+        thickness_ratio: fin.number("thickness_ratio", Parameter::FinThicknessRatio.rule()),
+        height_m: fin.number("height_m", Parameter::FinHeight.rule()),
     }
 }
 

@@ -3,6 +3,7 @@
 pub mod figures;
 mod picture;
 mod plot;
+mod surroundings;
 mod tables;
 mod traces;
 mod track;

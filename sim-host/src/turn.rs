@@ -195,7 +195,8 @@ impl<'a> Turns<'a> {
     }
 }
 
-/// Whether the vehicle is its own mirror image, with nothing but diagonal added mass and the couplings M_ẇ and N_v̇.
+/// Whether the vehicle is its own mirror image, with nothing but diagonal added mass and the couplings M_ẇ and N_v̇, and its
+/// variable volume at the centre of buoyancy.
 fn is_plain(vehicle: &Vehicle) -> bool {
     let added = &vehicle.added_mass;
     let mut coupling = added.coupling_kg_m;
@@ -206,6 +207,7 @@ fn is_plain(vehicle: &Vehicle) -> bool {
         && added.mass_kg == diagonal
         && vehicle.body.centre_of_mass_m.y == 0.0
         && vehicle.hydrodynamics.moment_frame == MomentFrame::Body
+        && vehicle.buoyancy.as_ref().is_none_or(|buoyancy| !buoyancy.acts_at_station)
 }
 
 /// The 3×3 system A (β, φ, μ)ᵀ + b Ω = 0 of section 8.

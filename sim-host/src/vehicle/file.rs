@@ -3,7 +3,7 @@
 //! `[hydrodynamics]` may leave out `area_m2`, `span_m` and `chord_m` (then the wing's), `moment_frame` (then `"body"`) and
 //! the coefficients that symmetry makes small: `lift.zero`, `lift.q`, `pitch.zero`, `side.p`, `side.r`, `roll.r`, `yaw.p`
 //! (then 0). Every other coefficient must be there. `[buoyancy]` may leave out `compressibility_per_pa`, `thermal_expansion_per_c`
-//! (then 0) and `reference_temperature_c` (then 15). `[crossflow]` may leave out its areas (then the geometry's).
+//! (then 0), `reference_temperature_c` (then 15) and `acts_at_station` (then `false`). `[crossflow]` may leave out its areas (then the geometry's).
 //!
 //! `[buoyancy]` may say how its engine is built and `[moving_mass]` how it is driven: [`super::Engine`] and [`super::Drive`].
 
@@ -205,6 +205,7 @@ fn buoyancy(buoyancy: &mut Section<'_>) -> Buoyancy {
         pump_rate_m3_s: buoyancy.number("pump_rate_m3_s", Rule::Positive),
         bleed_rate_m3_s: buoyancy.number("bleed_rate_m3_s", Rule::Positive),
         position_m: buoyancy.number("position_m", Rule::Finite),
+        acts_at_station: buoyancy.flag_or("acts_at_station", false),
         efficiency: buoyancy.pairs("efficiency"),
         idle_power_w: buoyancy.number("idle_power_w", Rule::NotNegative),
         engine: Engine::read(buoyancy, volume_m3),

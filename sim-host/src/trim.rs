@@ -1,5 +1,7 @@
 //! Steady straight glides: wings level from the polar (section 7 of the equations), or exact and banked.
 
+use std::f64::consts::FRAC_PI_2;
+
 use nalgebra::{Vector3, Vector4};
 use serde::Serialize;
 
@@ -124,6 +126,9 @@ fn exact(vehicle: &Vehicle, plant: &Plant<f64>, level: &Glide, scale: Scale) -> 
         solve(&turning, Turn::Rate(0.0))
     });
     let helix = helix.map_err(|failure| format!("{}: {failure}", vehicle.name))?;
+    if helix.roll_rad.abs() >= FRAC_PI_2 {
+        return Err(format!("{}: glides straight only upside down, with {helix}", vehicle.name));
+    }
     let viscous = plant.viscous_in(&helix.state(plant));
     Ok(Glide {
         speed_m_s: helix.speed_m_s,
@@ -180,7 +185,7 @@ fn lift_at_path_angle(vehicle: &Vehicle, path_angle_rad: f64) -> Result<f64, Str
     let hydro = &vehicle.hydrodynamics;
     let tangent = libm::tan(path_angle_rad);
     let discriminant = tangent * tangent - 4.0 * hydro.c_d_induced * hydro.c_d_zero;
-    let upright = path_angle_rad != 0.0 && path_angle_rad.abs() <= std::f64::consts::FRAC_PI_2;
+    let upright = path_angle_rad != 0.0 && path_angle_rad.abs() <= FRAC_PI_2;
     if !upright || discriminant.is_nan() || discriminant < 0.0 {
         let flattest = libm::atan(2.0 * (hydro.c_d_induced * hydro.c_d_zero).sqrt()).to_degrees();
         return Err(format!(

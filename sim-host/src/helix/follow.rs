@@ -91,7 +91,7 @@ impl std::fmt::Display for Miss {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Residual(left) => write!(f, "a residual of {left:.2e} N is left"),
-            Self::NoFlight => write!(f, "only a motion backwards, abeam or upside down balances"),
+            Self::NoFlight => write!(f, "only a motion backwards or abeam balances"),
         }
     }
 }

@@ -36,7 +36,7 @@ pub(super) struct Asked {
 pub(super) enum Miss {
     /// The least residual on the way, N and N m.
     Residual(f64),
-    /// What balances flies backwards, abeam or upside down.
+    /// What balances flies backwards or abeam.
     NoFlight,
 }
 
@@ -123,8 +123,8 @@ fn largest_turn_rad(step: &Unknowns<f64>) -> f64 {
     [1, 2, 3, 4, 6].into_iter().map(|angle| step[angle].abs()).fold(0.0, f64::max)
 }
 
-/// Forwards, the right way up and the mass within a revolution: else the same law balances what no vehicle flies.
+/// Forwards, and the mass within a revolution: else the same law balances what no vehicle flies.
 fn is_flight(helix: &Helix) -> bool {
-    let upright = [helix.alpha_rad, helix.beta_rad, helix.roll_rad].iter().all(|angle| angle.abs() < FRAC_PI_2);
-    helix.speed_m_s > 0.0 && upright && helix.mu_rad.abs() < TAU
+    let forwards = helix.alpha_rad.abs().max(helix.beta_rad.abs()) < FRAC_PI_2;
+    helix.speed_m_s > 0.0 && forwards && helix.mu_rad.abs() < TAU
 }

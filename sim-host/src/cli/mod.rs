@@ -34,7 +34,7 @@ struct Cli {
 enum Command {
     /// Fly a mission, controller in the loop, and report on it
     Fly(fly::Args),
-    /// Find a steady wings-level glide
+    /// Find a steady straight glide: wings level, or banked if the vehicle is not symmetric
     Trim(trim::Args),
     /// Turn a glide: how much mu, roll and sideslip it takes, and how fast it can turn
     Turn(stability::TurnArgs),

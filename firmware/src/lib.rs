@@ -4,8 +4,8 @@
 //! a host, in emulation and on a board. A board's binary (`boards/`) only wires it up.
 //!
 //! # What is not there yet
-//! No driver for pressure, attitude or position: in flight those measurements stay `None`, and the autopilot does not leave
-//! the surface. Simulated measurements come over the link, with the bench jumper fitted.
+//! No driver for pressure, attitude, position, altitude, leak, vacuum, charge or modem: in flight those measurements stay
+//! `None`, and the autopilot does not leave the surface; what is not measured aborts nothing. Simulated measurements come over the link, with the bench jumper fitted.
 //!
 //! No watchdog and no drop weight: after a panic the actuators are safe, and stay so until somebody resets the board.
 //!

@@ -100,13 +100,11 @@ impl Board for Simulated {
     fn measure(&mut self) -> Measurements {
         let positions = self.drivers.positions();
         Measurements {
-            pressure_pa: None,
-            attitude: None,
             r_px_um: positions.r_px_um,
             mu_cdeg: positions.mu_cdeg,
             vbd_ul: positions.vbd_ul,
-            battery_mv: 14_000,
-            gps: None,
+            battery_mv: Some(14_000),
+            ..Measurements::silent()
         }
     }
 
@@ -165,15 +163,7 @@ impl Desk {
 }
 
 fn sensors(tick: u32) -> Message {
-    let measurements = Measurements {
-        pressure_pa: Some(0),
-        attitude: None,
-        r_px_um: 0,
-        mu_cdeg: 0,
-        vbd_ul: 0,
-        battery_mv: 0,
-        gps: None,
-    };
+    let measurements = Measurements { pressure_pa: Some(0), ..Measurements::silent() };
     Message::Sensors(SensorFrame { tick, measurements })
 }
 

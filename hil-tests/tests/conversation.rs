@@ -11,15 +11,7 @@ use sim_host::link::{FirmwarePilot, Machine};
 
 const PATIENCE: Duration = Duration::from_secs(30);
 
-const STILL: Measurements = Measurements {
-    pressure_pa: Some(0),
-    attitude: None,
-    r_px_um: 0,
-    mu_cdeg: 0,
-    vbd_ul: 0,
-    battery_mv: 14_000,
-    gps: None,
-};
+const STILL: Measurements = Measurements { pressure_pa: Some(0), battery_mv: Some(14_000), ..Measurements::silent() };
 
 fn sensors(tick: u32) -> Message {
     Message::Sensors(SensorFrame { tick, measurements: STILL })

@@ -40,10 +40,41 @@ pub struct Measurements {
     pub mu_cdeg: i16,
     /// Volume of the variable buoyancy device beyond neutral, µl.
     pub vbd_ul: i32,
-    /// Battery voltage, mV.
-    pub battery_mv: u16,
+    /// Battery voltage at the terminals, under whatever load there is, mV.
+    pub battery_mv: Option<u16>,
+    /// Charge drawn from the battery since it was full, mC.
+    pub charge_mc: Option<i64>,
+    /// Height above the sea floor, mm; none without an echo.
+    pub altitude_mm: Option<i32>,
+    /// Voltage of the leak detector, mV: high while dry.
+    pub leak_mv: Option<u16>,
+    /// Air pressure less the pressure in the hull, Pa.
+    pub vacuum_pa: Option<i32>,
     /// A position fix, only with the antenna in air.
     pub gps: Option<GpsFix>,
+    /// The modem has a link to shore, only with the antenna in air.
+    pub modem_up: bool,
+}
+
+impl Measurements {
+    /// Not a word from any instrument; actuators at zero. What a board has no device for stays so.
+    #[must_use]
+    pub const fn silent() -> Self {
+        Self {
+            pressure_pa: None,
+            attitude: None,
+            r_px_um: 0,
+            mu_cdeg: 0,
+            vbd_ul: 0,
+            battery_mv: None,
+            charge_mc: None,
+            altitude_mm: None,
+            leak_mv: None,
+            vacuum_pa: None,
+            gps: None,
+            modem_up: false,
+        }
+    }
 }
 
 /// Attitude and body rates, 0.01° and 0.01 °/s.

@@ -44,6 +44,7 @@ pub mod parameters;
 pub mod pitch;
 pub mod reduced;
 pub mod servo;
+pub mod streak;
 pub mod supervisor;
 pub mod table;
 pub mod vehicle;

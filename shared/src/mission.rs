@@ -18,6 +18,8 @@ use crate::{table::TrimTable, vehicle::FlightVehicle};
 
 /// Largest number of headings in a mission.
 pub const MAX_HEADINGS: usize = 32;
+/// Greatest height above the sea floor to ask for, mm: altimeters of gliders reach 100 m.
+pub const MAX_ALTITUDE_MM: i32 = 100_000;
 
 /// A mission of yos: dives and climbs between two depths, then back to the surface.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, Schema)]
@@ -40,6 +42,8 @@ pub struct Mission {
     pub headings_cdeg: Vec<u16, MAX_HEADINGS>,
     /// Shortest stay at the surface before the first dive, s.
     pub surface_time_s: u16,
+    /// Height above the sea floor at which a dive turns, mm; 0 for none.
+    pub altitude_mm: i32,
     /// Depth at which the mission is aborted, mm.
     pub abort_depth_mm: i32,
     /// Time after which the mission is aborted, s.
@@ -87,6 +91,7 @@ impl Mission {
             ),
             ("dive_net_mass_g", i32::from(self.dive_net_mass_g), dive.net_mass_g.min, dive.net_mass_g.max),
             ("climb_net_mass_g", i32::from(self.climb_net_mass_g), climb.net_mass_g.min, climb.net_mass_g.max),
+            ("altitude_mm", self.altitude_mm, 0, MAX_ALTITUDE_MM),
             ("abort_depth_mm", self.abort_depth_mm, self.dive_to_mm.saturating_add(1), i32::MAX),
             ("max_duration_s", i32::try_from(self.max_duration_s).unwrap_or(i32::MAX), 1, i32::MAX - 1),
             ("number of headings", i32::try_from(self.headings_cdeg.len()).unwrap_or(i32::MAX), 1, 32),
@@ -135,6 +140,8 @@ pub enum Event {
     ReadyToDive,
     /// The apogee depth will be reached if the reversal starts now.
     DeepEnough,
+    /// The sea floor will be as near as it may come if the reversal starts now.
+    NearBottom,
     /// Light enough to climb.
     Light,
     /// The top of the yo will be reached if the reversal starts now, and another yo follows.
@@ -153,6 +160,7 @@ pub enum Event {
 pub const TRANSITIONS: &[(Phase, Event, Phase)] = &[
     (Phase::Surface, Event::ReadyToDive, Phase::Dive),
     (Phase::Dive, Event::DeepEnough, Phase::Apogee),
+    (Phase::Dive, Event::NearBottom, Phase::Apogee),
     (Phase::Apogee, Event::Light, Phase::Climb),
     (Phase::Climb, Event::TopReached, Phase::Crest),
     (Phase::Climb, Event::LastTopReached, Phase::Surfacing),
@@ -218,8 +226,8 @@ mod tests {
 
     #[test]
     fn two_yos_go_through_every_phase_and_complete() {
-        use Event::{Afloat, DeepEnough, Heavy, LastTopReached, Light, ReadyToDive, TopReached};
-        let end = fly(&[ReadyToDive, DeepEnough, Light, TopReached, Heavy, DeepEnough, Light, LastTopReached, Afloat]);
+        use Event::{Afloat, DeepEnough, Heavy, LastTopReached, Light, NearBottom, ReadyToDive, TopReached};
+        let end = fly(&[ReadyToDive, DeepEnough, Light, TopReached, Heavy, NearBottom, Light, LastTopReached, Afloat]);
         assert_eq!(end, Executive { phase: Phase::Complete, yo: 2, since_tick: 9 });
     }
 

@@ -204,11 +204,8 @@ mod tests {
                 pitch_rate_cdeg_s: 0,
                 yaw_rate_cdeg_s: 0,
             }),
-            r_px_um: 0,
-            mu_cdeg: 0,
             vbd_ul: -212_900,
-            battery_mv: 15_000,
-            gps: None,
+            ..Measurements::silent()
         }
     }
 

@@ -76,6 +76,26 @@ parameters! {
     stale_depth_s: 5..=3_600, 60;
     /// Time without a fresh attitude after which the mission ends, s.
     stale_attitude_s: 5..=3_600, 120;
+    /// Consecutive samples beyond a limit after which leak, vacuum, voltage or charge end the mission.
+    abort_samples: 1..=1_000, 10;
+    /// Voltage below which the leak detector counts as wet, mV.
+    leak_mv: 0..=5_000, 2_000;
+    /// Least vacuum in the hull, Pa (default: 4 inHg).
+    vacuum_min_pa: -100_000..=100_000, 13_546;
+    /// Most vacuum in the hull, Pa (default: 12 inHg).
+    vacuum_max_pa: -100_000..=100_000, 40_637;
+    /// Battery voltage below which the mission ends, mV.
+    undervolts_mv: 0..=60_000, 10_000;
+    /// Charge of the full battery, C; 0 if it is not known.
+    battery_capacity_c: 0..=10_000_000, 0;
+    /// Part of the battery's charge below which the mission ends, %.
+    low_charge_percent: 0..=90, 10;
+    /// Time under way without a change of depth after which the mission ends, s.
+    no_motion_s: 30..=7_200, 900;
+    /// Change of depth that counts as motion, mm.
+    no_motion_mm: 100..=50_000, 3_000;
+    /// Consecutive echoes of a floor that is too near after which a dive ends.
+    altitude_samples: 1..=100, 3;
 }
 
 impl Parameters {

@@ -3,7 +3,12 @@
 use postcard_schema::Schema;
 use serde::{Deserialize, Serialize};
 
-use crate::{device::TICK_HZ, mission::Mission, parameters::Parameters};
+use crate::{
+    device::{Measurements, TICK_HZ},
+    mission::Mission,
+    parameters::Parameters,
+    streak::Streak,
+};
 
 /// Why a mission ended early (append only).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Schema)]
@@ -17,20 +22,50 @@ pub enum Abort {
     StaleDepth,
     /// No fresh attitude for too long.
     StaleAttitude,
+    /// The leak detector is wet.
+    Leak,
+    /// Too little vacuum in the hull, or too much.
+    Vacuum,
+    /// Too little battery voltage.
+    Undervolts,
+    /// Too little charge left in the battery.
+    LowCharge,
+    /// Under way, but neither sinking nor rising.
+    NoVerticalMotion,
 }
 
-/// Limits of one mission, in ticks and millimetres.
+/// Limits of one mission, in ticks and device integers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Supervisor {
     abort_depth_mm: i32,
     max_ticks: u32,
     stale_depth_ticks: u32,
     stale_attitude_ticks: u32,
+    samples: u32,
+    dry_mv: i32,
+    least_vacuum_pa: i32,
+    most_vacuum_pa: i32,
+    least_mv: i32,
+    /// Charge that may be drawn; none if the battery's is not known.
+    most_drawn_mc: Option<i64>,
+    no_motion_ticks: u32,
+    no_motion_mm: i32,
+}
+
+/// What the supervisor remembers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Watch {
+    leak: Streak,
+    vacuum: Streak,
+    undervolts: Streak,
+    low_charge: Streak,
+    /// Tick and depth, mm, from which on there was no vertical motion.
+    rest: Option<(u32, i32)>,
 }
 
 /// What the supervisor looks at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Vitals {
+pub struct Vitals<'a> {
     /// Ticks since the mission began.
     pub tick: u32,
     /// Depth last measured, mm.
@@ -39,6 +74,10 @@ pub struct Vitals {
     pub depth_tick: u32,
     /// Tick of the last fresh attitude.
     pub attitude_tick: u32,
+    /// Whether depth should be changing.
+    pub under_way: bool,
+    /// What the other instruments say; what says nothing is not judged.
+    pub measurements: &'a Measurements,
 }
 
 impl Supervisor {
@@ -46,74 +85,58 @@ impl Supervisor {
     #[must_use]
     pub fn new(mission: &Mission, parameters: &Parameters) -> Self {
         let ticks = |seconds: u32| seconds.saturating_mul(TICK_HZ);
+        let seconds = |parameter: i32| ticks(parameter.unsigned_abs());
+        // Millicoulombs of one per cent of a coulomb.
+        let percent_mc = i64::from(parameters.battery_capacity_c).saturating_mul(10);
+        let may_draw_percent = 100_i64.saturating_sub(parameters.low_charge_percent.into());
         Self {
             abort_depth_mm: mission.abort_depth_mm,
             max_ticks: ticks(mission.max_duration_s),
-            stale_depth_ticks: ticks(parameters.stale_depth_s.unsigned_abs()),
-            stale_attitude_ticks: ticks(parameters.stale_attitude_s.unsigned_abs()),
+            stale_depth_ticks: seconds(parameters.stale_depth_s),
+            stale_attitude_ticks: seconds(parameters.stale_attitude_s),
+            samples: parameters.abort_samples.unsigned_abs(),
+            dry_mv: parameters.leak_mv,
+            least_vacuum_pa: parameters.vacuum_min_pa,
+            most_vacuum_pa: parameters.vacuum_max_pa,
+            least_mv: parameters.undervolts_mv,
+            most_drawn_mc: (percent_mc > 0).then_some(percent_mc.saturating_mul(may_draw_percent)),
+            no_motion_ticks: seconds(parameters.no_motion_s),
+            no_motion_mm: parameters.no_motion_mm,
         }
     }
 
     /// The reason to abort now, the gravest first.
-    #[must_use]
-    pub fn judge(&self, vitals: &Vitals) -> Option<Abort> {
+    pub fn judge(&self, watch: &mut Watch, vitals: &Vitals<'_>) -> Option<Abort> {
+        let said = vitals.measurements;
         let age = |since: u32| vitals.tick.saturating_sub(since);
+        let wet = said.leak_mv.map(|mv| i32::from(mv) < self.dry_mv);
+        let bad_vacuum = said.vacuum_pa.map(|pa| pa < self.least_vacuum_pa || pa > self.most_vacuum_pa);
+        let weak = said.battery_mv.map(|mv| i32::from(mv) < self.least_mv);
+        let spent = said.charge_mc.zip(self.most_drawn_mc).map(|(drawn, most)| drawn > most);
+        // All are evaluated, so that every streak gets its sample.
         let rows = [
+            (watch.leak.take(wet, self.samples), Abort::Leak),
             (vitals.depth_mm > self.abort_depth_mm, Abort::Overdepth),
             (age(vitals.depth_tick) > self.stale_depth_ticks, Abort::StaleDepth),
+            (watch.vacuum.take(bad_vacuum, self.samples), Abort::Vacuum),
+            (watch.undervolts.take(weak, self.samples), Abort::Undervolts),
+            (watch.low_charge.take(spent, self.samples), Abort::LowCharge),
             (age(vitals.attitude_tick) > self.stale_attitude_ticks, Abort::StaleAttitude),
+            (age(self.at_rest_since(watch, vitals)) > self.no_motion_ticks, Abort::NoVerticalMotion),
             (vitals.tick > self.max_ticks, Abort::MissionTimeout),
         ];
         rows.into_iter().find(|(met, _)| *met).map(|(_, abort)| abort)
     }
+
+    /// Tick since which depth has stayed within a band although it should change; now, if it moves.
+    fn at_rest_since(&self, watch: &mut Watch, vitals: &Vitals<'_>) -> u32 {
+        let stays = |depth_mm: i32| vitals.depth_mm.saturating_sub(depth_mm).saturating_abs() <= self.no_motion_mm;
+        let rest = watch.rest.filter(|(_, depth_mm)| vitals.under_way && stays(*depth_mm));
+        let (tick, depth_mm) = rest.unwrap_or((vitals.tick, vitals.depth_mm));
+        watch.rest = Some((tick, depth_mm));
+        tick
+    }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use heapless::Vec;
-
-    const WELL: Vitals = Vitals { tick: 1_000, depth_mm: 150_000, depth_tick: 1_000, attitude_tick: 1_000 };
-
-    fn supervisor() -> Supervisor {
-        let mission = Mission {
-            yos: 1,
-            dive_to_mm: 200_000,
-            climb_to_mm: 3_000,
-            dive_path_angle_cdeg: -2_600,
-            climb_path_angle_cdeg: 2_600,
-            dive_net_mass_g: 250,
-            climb_net_mass_g: -250,
-            headings_cdeg: Vec::new(),
-            surface_time_s: 0,
-            abort_depth_mm: 215_000,
-            max_duration_s: 3_600,
-        };
-        Supervisor::new(&mission, &Parameters::default())
-    }
-
-    #[test]
-    fn a_healthy_dive_goes_on() {
-        assert_eq!(supervisor().judge(&WELL), None);
-    }
-
-    #[test]
-    fn each_limit_aborts_just_beyond_it() {
-        let judge = |vitals| supervisor().judge(&vitals);
-        assert_eq!(judge(Vitals { depth_mm: 215_000, ..WELL }), None);
-        assert_eq!(judge(Vitals { depth_mm: 215_001, ..WELL }), Some(Abort::Overdepth));
-        let late = 3_600 * TICK_HZ;
-        let fresh = Vitals { depth_tick: late, attitude_tick: late, ..WELL };
-        assert_eq!(judge(Vitals { tick: late, ..fresh }), None);
-        assert_eq!(judge(Vitals { tick: late + 1, ..fresh }), Some(Abort::MissionTimeout));
-        assert_eq!(judge(Vitals { depth_tick: 1_000 - 60 * TICK_HZ, ..WELL }), None);
-        assert_eq!(judge(Vitals { depth_tick: 999 - 60 * TICK_HZ, ..WELL }), Some(Abort::StaleDepth));
-        assert_eq!(judge(Vitals { attitude_tick: 999 - 120 * TICK_HZ, ..WELL }), Some(Abort::StaleAttitude));
-    }
-
-    #[test]
-    fn the_gravest_reason_is_given_first() {
-        let all = Vitals { tick: 1_000_000, depth_mm: 300_000, depth_tick: 0, attitude_tick: 0 };
-        assert_eq!(supervisor().judge(&all), Some(Abort::Overdepth));
-    }
-}
+mod tests;

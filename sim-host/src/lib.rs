@@ -34,17 +34,21 @@
 //! | the paper's trends with geometry, and where they do not hold | `tests/trends.rs` | sign |
 //! | Seawing's published spiral | `tests/seawing.rs` | 2 %: published digits, another drag law |
 
+pub mod chart;
 pub mod cli;
 pub mod coefficients;
 pub mod draw;
 pub mod eval;
+pub mod faults_file;
 pub mod flight;
 pub mod helix;
 #[cfg(unix)]
 pub mod link;
+pub mod locus;
 pub mod mission_file;
 pub mod modes;
 pub mod ocean;
+pub mod paper;
 pub mod performance;
 pub mod pilot;
 pub mod plant;

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, de::value::MapDeserializer};
 use shared::{
-    mission::{MAX_HEADINGS, Mission},
+    mission::{MAX_ALTITUDE_MM, MAX_HEADINGS, Mission},
     parameters::{Parameters, ROWS},
 };
 
@@ -19,6 +19,8 @@ pub const M_PER_DEG: f64 = 111_194.93;
 const PATH_CHARS: usize = 4096;
 /// Deepest depth a file may name, m.
 const DEEPEST_M: f64 = 12_000.0;
+/// Greatest height above the floor that a mission may ask for, m.
+const MAX_ALTITUDE_M: f64 = MAX_ALTITUDE_MM as f64 / 1e3;
 /// Largest net mass that the mission's integers hold, kg.
 const NET_MASS_KG: f64 = 32.0;
 
@@ -55,14 +57,18 @@ impl MissionFile {
     /// # Errors
     /// The first mistake, with its place and what would be right.
     pub fn from_toml(text: &str, source_name: &str) -> Result<Self, FileError> {
-        toml_file::read(text, source_name, |file| Self {
-            vehicle: file.text("vehicle", PATH_CHARS),
-            start: file.section("start", start),
-            mission: file.section("mission", mission),
-            parameters: file.optional_section("parameters", parameters).unwrap_or_default(),
-            file: source_name.into(),
-            text: text.into(),
-        })
+        let file = toml_file::read(text, source_name, read)?;
+        Ok(Self { file: source_name.into(), text: text.into(), ..file })
+    }
+
+    /// The JSON Schema of mission files: with it an editor completes and checks them.
+    #[must_use]
+    pub fn schema() -> serde_json::Value {
+        let mut schema = toml_file::schema("a glider's mission", read);
+        for row in ROWS {
+            schema["properties"]["parameters"]["properties"][row.name]["description"] = row.about.trim().into();
+        }
+        schema
     }
 
     /// Reads an embedded mission by its name, or else a file by its path.
@@ -80,6 +86,17 @@ impl MissionFile {
     #[must_use]
     pub fn mistake(&self, dotted_key: &str, message: String) -> FileError {
         FileError { file: self.file.clone(), place: toml_file::place_of(&self.text, dotted_key), message }
+    }
+}
+
+fn read(file: &mut Section<'_>) -> MissionFile {
+    MissionFile {
+        vehicle: file.text("vehicle", PATH_CHARS),
+        start: file.section("start", start),
+        mission: file.section("mission", mission),
+        parameters: file.optional_section("parameters", parameters).unwrap_or_default(),
+        file: String::new(),
+        text: String::new(),
     }
 }
 
@@ -111,6 +128,7 @@ fn mission(mission: &mut Section<'_>) -> Mission {
             .map(|heading| scaled::<u16>(heading.rem_euclid(360.0), 1e2) % 36_000)
             .collect(),
         surface_time_s: whole(mission.integer("surface_time_s", 0..=i64::from(u16::MAX))),
+        altitude_mm: scaled(mission.number_or("altitude_m", Rule::Within(0.0, MAX_ALTITUDE_M), 0.0), 1e3),
         abort_depth_mm: scaled(abort_depth_m, 1e3),
         max_duration_s: whole(mission.integer("max_duration_s", 1..=i64::from(u32::MAX))),
     }

@@ -249,13 +249,19 @@ fn linear(vehicle: &Vehicle, glide: &Glide) -> Option<Sensitivity> {
     Some(Sensitivity { mu_s: x.z, phi_s: x.y, beta_s: x.x })
 }
 
-/// Equations (14)–(16), with the displaced mass for m in (14) and (16) and the coefficients brought to the paper's normalisation.
+/// Equations (14)–(16) where nothing that they leave out is there.
 fn closed_form(vehicle: &Vehicle, glide: &Glide) -> Option<Sensitivity> {
+    let h = &vehicle.hydrodynamics;
+    let dropped = [h.c_l_zero, h.c_y_p, h.c_y_r, h.c_roll_r, h.c_n_p, vehicle.body.centre_of_mass_m.x];
+    (is_plain(vehicle) && dropped.iter().all(|value| *value == 0.0)).then(|| equations_14_to_16(vehicle, glide))
+}
+
+/// Equations (14)–(16), with the displaced mass for m in (14) and (16) and the coefficients brought to the paper's normalisation.
+///
+/// They leave out C_L0, C_Yp, C_Yr, C_lr, C_np and the body's own offset along its axis, whatever the vehicle has.
+#[must_use]
+pub fn equations_14_to_16(vehicle: &Vehicle, glide: &Glide) -> Sensitivity {
     let (h, body, mass) = (&vehicle.hydrodynamics, &vehicle.body, &vehicle.moving_mass);
-    let dropped = [h.c_l_zero, h.c_y_p, h.c_y_r, h.c_roll_r, h.c_n_p, body.centre_of_mass_m.x];
-    if !is_plain(vehicle) || dropped.iter().any(|value| *value != 0.0) {
-        return None;
-    }
     let (rho, g, speed) = (vehicle.water.density_kg_m3, vehicle.water.gravity_m_s2, glide.speed_m_s);
     let (m_net, m_d) = (glide.net_mass_kg, vehicle.mass_kg() - glide.net_mass_kg);
     let [x_u, y_v, z_w] = [0, 1, 2].map(|i| -vehicle.added_mass.mass_kg[(i, i)]);
@@ -280,5 +286,5 @@ fn closed_form(vehicle: &Vehicle, glide: &Glide) -> Option<Sensitivity> {
         * (2.0 * (m_d + m_net - x_u) * ca * c + 2.0 * (m_d + m_net - z_w) * sa * s - s_rho * c_ds * n / d);
     let mu_s = speed / (2.0 * g * mass.mass_kg * m_net * mass.radius_m)
         * (yaw_rate * c / s + 2.0 * (gx * (m_d - z_w) - m_net * m_w) * sa - y_beta / s * n / d);
-    Some(Sensitivity { mu_s, phi_s, beta_s: -n / (speed * d) })
+    Sensitivity { mu_s, phi_s, beta_s: -n / (speed * d) }
 }

@@ -106,6 +106,30 @@ fn a_mission_beyond_the_vehicle_is_refused_before_anything_is_written() {
 }
 
 #[test]
+fn faults_are_flown_and_named_in_the_summary() {
+    in_folder(|folder| {
+        let out = folder.join("dive");
+        let fly = |faults: &str| glider(&["fly", "--faults", faults, "--json", "--out", out.to_str().unwrap()]);
+        let answer = json(&fly("leak"));
+        assert_eq!((&answer["faults"], &answer["outcome"]), (&Value::from("leak"), &Value::from("aborted")));
+        assert_eq!(answer["aborts"], serde_json::json!(["Leak"]));
+        let summary: Value = serde_json::from_slice(&fs::read(out.join("summary.json")).unwrap()).unwrap();
+        assert_eq!(summary, answer);
+    });
+}
+
+#[test]
+fn bad_faults_are_refused_before_anything_is_written() {
+    in_folder(|folder| {
+        let (faults, out) = (folder.join("faults.toml"), folder.join("dive"));
+        fs::write(&faults, "[sensors]\ngps_nose_m = 3\n").unwrap();
+        let line = refusal(&glider(&["fly", "--faults", faults.to_str().unwrap(), "--out", out.to_str().unwrap()]));
+        assert!(line.ends_with("faults.toml:2:1: unknown key `gps_nose_m`; did you mean `gps_noise_m`?"), "{line}");
+        assert!(!out.exists());
+    });
+}
+
+#[test]
 fn a_table_for_another_vehicle_or_a_damaged_one_is_refused() {
     in_folder(|folder| {
         let (vehicle, table) = (folder.join("light.toml"), folder.join("light.table"));

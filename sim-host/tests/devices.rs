@@ -82,8 +82,9 @@ fn a_pump_that_is_weaker_at_depth_and_a_dead_zone_change_the_dive_but_do_not_end
 
 #[test]
 fn a_leak_makes_it_heavy_and_the_pot_does_not_know() {
-    // 20 g at 1 MPa per minute, for half an hour.
-    let leak = Faults { leak: Seep { rate_m3_s: 0.3e-6, from_s: 300.0 }, ..Faults::default() };
+    // 20 g at 1 MPa per minute, for half an hour, and a leak detector that says nothing.
+    let dead = Dropout { instrument: Instrument::Leak, from_s: 0.0, until_s: 1e9 };
+    let leak = Faults { leak: Seep { rate_m3_s: 0.3e-6, from_s: 300.0 }, dropouts: vec![dead], ..Faults::default() };
     let mut shown_less_true_ul = 0.0;
     let neutral_m3 = Vehicle::load("slocum-paper").unwrap().neutral_volume_m3();
     fly_with(

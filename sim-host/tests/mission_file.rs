@@ -28,6 +28,7 @@ fn the_default_mission_is_two_yos_to_200_m_with_a_turn() {
         climb_net_mass_g: -250,
         headings_cdeg: [3_000, 6_000, 6_000, 6_000].into_iter().collect(),
         surface_time_s: 60,
+        altitude_mm: 0,
         abort_depth_mm: 215_000,
         max_duration_s: 10_800,
     };
@@ -73,9 +74,32 @@ fn mistakes_are_answered_with_their_place() {
             "[]",
             "m.toml:18:16: `mission.headings_deg` is [], but must be 1 to 32 numbers, each a number from -360 to 360",
         ),
+        (
+            "yos = 2",
+            "yos = 2\naltitude_m = 101",
+            "m.toml:12:14: `mission.altitude_m` is 101, but must be a number from 0 to 100",
+        ),
         ("= 59.0", "= 95", "m.toml:6:16: `start.latitude_deg` is 95, but must be a number from -90 to 90"),
     ];
     for (passage, replacement, expected) in rows {
         assert_eq!(mistake(passage, replacement), expected);
     }
+}
+
+/// What an editor offers and requires is what the reader reads: the default mission, key by key.
+#[test]
+fn the_schema_knows_every_key_of_the_default_mission() {
+    let schema = MissionFile::schema();
+    let sections = &schema["properties"];
+    let text = include_str!("../missions/default.toml");
+    let document = text.parse::<toml_edit::DocumentMut>().unwrap();
+    for (section, table) in document.iter().filter_map(|(key, item)| Some((key, item.as_table()?))) {
+        for (key, _) in table.iter() {
+            assert!(sections[section]["properties"][key].is_object(), "{section}.{key}");
+        }
+    }
+    assert!(sections["mission"]["required"].as_array().unwrap().contains(&"yos".into()));
+    let period = &sections["parameters"]["properties"]["pitch_period_s"];
+    assert_eq!((&period["minimum"], &period["default"]), (&2.into(), &20.into()));
+    assert!(period["description"].as_str().unwrap().contains("pitch corrections"));
 }

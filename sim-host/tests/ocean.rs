@@ -5,7 +5,7 @@
 use std::sync::LazyLock;
 
 use nalgebra::Vector3;
-use shared::{autopilot::Autopilot, mission::Phase, table::TrimTable};
+use shared::{autopilot::Autopilot, mission::Phase, supervisor::Abort, table::TrimTable};
 use sim_host::{
     flight::{FlyingVehicle, Loss, Outcome, Summary, fly},
     mission_file::MissionFile,
@@ -19,6 +19,7 @@ static TABLE: LazyLock<Vec<u8>> = LazyLock::new(|| generate(&SLOCUM, &Envelope::
 
 /// One tick as the truth has it.
 struct Truth {
+    yo: u16,
     phase: Phase,
     position_m: Vector3<f64>,
     density_kg_m3: f64,
@@ -33,6 +34,7 @@ fn fly_in(ocean: &Ocean, seed: u64, change: impl FnOnce(&mut MissionFile)) -> (S
     let mut truth = Vec::new();
     let summary = fly(&flying, ocean, &file.mission, &file.start, seed, &mut autopilot, &mut |tick| {
         truth.push(Truth {
+            yo: tick.commands.yo,
             phase: tick.commands.phase,
             position_m: tick.state.position_m,
             density_kg_m3: tick.water.around.density_kg_m3,
@@ -68,13 +70,15 @@ fn without_enough_buoyancy_it_stalls_in_the_halocline_and_is_brought_home() {
         (file.mission.dive_net_mass_g, file.mission.climb_net_mass_g) = (60, -60);
         file.mission.max_duration_s = 7_200;
     });
-    assert_eq!((summary.outcome, summary.aborts.as_slice()), (Outcome::Aborted, &["MissionTimeout".to_string()][..]));
+    let reasons = [Abort::NoVerticalMotion].map(|abort| format!("{abort:?}"));
+    assert_eq!((summary.outcome, summary.aborts.as_slice()), (Outcome::Aborted, &reasons[..]));
     assert!((60.0..120.0).contains(&summary.max_depth_m), "{} m", summary.max_depth_m);
-    let last_hour = &truth[3_600 * 4..7_200 * 4];
-    assert!(last_hour.iter().all(|t| t.phase == Phase::Dive), "it still tries to dive");
-    // The internal wave moves the layer in which it hangs by 0.7 m either way.
-    let depths = || last_hour.iter().map(|t| t.position_m.z);
-    assert!(depths().fold(0.0, f64::max) - depths().fold(f64::MAX, f64::min) < 2.0);
+    let aborted = truth.iter().position(|t| t.phase == Phase::Recovery).unwrap();
+    let quarter_hour = &truth[aborted - 900 * 4..aborted];
+    assert!(quarter_hour.iter().all(|t| t.phase == Phase::Dive), "it still tries to dive");
+    // Within the 3 m either way that count as rest: the internal wave moves the layer in which it hangs by 0.7 m.
+    let depths = || quarter_hour.iter().map(|t| t.position_m.z);
+    assert!(depths().fold(0.0, f64::max) - depths().fold(f64::MAX, f64::min) <= 6.0);
     assert!(truth.last().unwrap().position_m.z < 2.0);
 }
 
@@ -106,6 +110,25 @@ fn a_floor_ends_the_dive() {
     let end = truth.last().unwrap().position_m;
     let floor_m = ocean.floor_depth_m(end.x, end.y).unwrap();
     assert!(floor_m < 100.0 && (end.z - floor_m).abs() < 0.2, "{end} on {floor_m} m");
+}
+
+/// The same floor, with the altimeter listened to: the dives turn above it, each as high as asked.
+#[test]
+fn the_altimeter_keeps_the_vehicle_off_the_floor() {
+    let ocean = parse("[floor]\ndepth_m = 100\nslope_deg = 2\ndirection_deg = 180\n").unwrap();
+    for seed in 1..=4 {
+        let (summary, truth) = fly_in(&ocean, seed, |file| file.mission.altitude_mm = 15_000);
+        assert_eq!((summary.outcome, &summary.aborts[..]), (Outcome::Completed, &[][..]));
+        for yo in [1, 2] {
+            let heights = truth
+                .iter()
+                .filter(|t| t.yo == yo)
+                .map(|t| ocean.floor_depth_m(t.position_m.x, t.position_m.y).unwrap() - t.position_m.z);
+            let lowest_m = heights.fold(f64::MAX, f64::min);
+            // The reversal takes some ten metres of depth, of which the controller foresees all but a metre or two.
+            assert!((12.0..18.0).contains(&lowest_m), "seed {seed}, yo {yo}: {lowest_m} m above the floor");
+        }
+    }
 }
 
 #[test]

@@ -62,8 +62,13 @@ fn sample(tick: u32) -> Sample {
             r_px_um: -191_234,
             mu_cdeg: 10 * small,
             vbd_ul: -250_000,
-            battery_mv: 15_000,
+            battery_mv: (!tick.is_multiple_of(6)).then_some(15_000),
+            charge_mc: (tick > 1).then_some(5_000_000_000 * i64::from(tick)),
+            altitude_mm: tick.is_multiple_of(4).then_some(90_000 - i32::from(small)),
+            leak_mv: tick.is_multiple_of(2).then_some(2_500),
+            vacuum_pa: tick.is_multiple_of(3).then_some(-27_000),
             gps: (tick < 4).then_some(GpsFix { lat_e7: 590_000_001, lon_e7: -1_799_999_999 }),
+            modem_up: tick < 3,
         },
         commands: Commands {
             r_px_rate_um_s: 10_000,
@@ -80,12 +85,15 @@ fn sample(tick: u32) -> Sample {
             velocity_m_s: Vector3::new(0.7, if tick == 7 { f64::NAN } else { 0.01 }, 0.02),
             ground_velocity_m_s: Vector3::new(0.6, 0.1, 0.3),
             water: water(tick),
+            floor_depth_m: tick.is_multiple_of(2).then_some(100.5),
             rate_rad_s: Vector3::new(1e-20, 0.0, -1e300),
             r_px_m: 0.191_234_567_890_123,
             mu_rad: 0.5,
             displaced_volume_m3: 0.05,
         },
         energy_j: EnergyUsed { pump: x * x, pitch: x, roll: 0.5 * x, hotel: 2.0 * x },
+        pump_work_j: 0.1 * x * x,
+        charge_c: x / 15.0,
     }
 }
 

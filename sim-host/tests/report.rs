@@ -45,10 +45,8 @@ fn sample(tick: u32) -> Sample {
                 yaw_rate_cdeg_s: 0,
             }),
             r_px_um: 190_000,
-            mu_cdeg: 0,
             vbd_ul: -250_000,
-            battery_mv: 15_000,
-            gps: None,
+            ..Measurements::silent()
         },
         commands: Commands {
             r_px_rate_um_s: if tick % 100 < 10 { -10_000 } else { 0 },
@@ -64,12 +62,15 @@ fn sample(tick: u32) -> Sample {
             velocity_m_s: Vector3::new(0.5, 0.0, 0.02),
             ground_velocity_m_s: Vector3::new(0.0, 0.5, 0.2),
             water: Ocean::still(&Vehicle::load("slocum-paper").unwrap().water).sample(&Vector3::zeros(), 0.0),
+            floor_depth_m: None,
             rate_rad_s: Vector3::zeros(),
             r_px_m: 0.19,
             mu_rad: 0.0,
             displaced_volume_m3: 0.05,
         },
         energy_j: EnergyUsed { pump: 2.0 * seconds, pitch: 0.2 * seconds, roll: 0.0, hotel: seconds },
+        pump_work_j: 0.1 * seconds,
+        charge_c: 0.2 * seconds,
     }
 }
 

@@ -171,16 +171,15 @@ impl Board for F405 {
 
     fn measure(&mut self) -> Measurements {
         let positions = self.actuators.positions();
-        let battery_counts = u32::from(self.converter.read(Channel::Battery).0);
-        let battery_mv = battery_counts.saturating_mul(BATTERY_UV_PER_COUNT) / UV_PER_MV;
+        // No count at all: the converter did not answer, for a battery of 0 V runs no board.
+        let battery_counts = Some(u32::from(self.converter.read(Channel::Battery).0)).filter(|counts| *counts > 0);
+        let battery_mv = battery_counts.map(|counts| counts.saturating_mul(BATTERY_UV_PER_COUNT) / UV_PER_MV);
         Measurements {
-            pressure_pa: None,
-            attitude: None,
             r_px_um: positions.r_px_um,
             mu_cdeg: positions.mu_cdeg,
             vbd_ul: positions.vbd_ul,
-            battery_mv: u16::try_from(battery_mv).unwrap_or(u16::MAX),
-            gps: None,
+            battery_mv: battery_mv.map(|mv| u16::try_from(mv).unwrap_or(u16::MAX)),
+            ..Measurements::silent()
         }
     }
 

@@ -45,7 +45,7 @@ impl Board for Emulated {
     fn run_actuators(&mut self) {}
 
     fn measure(&mut self) -> Measurements {
-        Measurements { pressure_pa: None, attitude: None, r_px_um: 0, mu_cdeg: 0, vbd_ul: 0, battery_mv: 0, gps: None }
+        Measurements::silent()
     }
 
     fn order(&mut self, _: &Commands) {}

@@ -12,7 +12,8 @@ use crate::{
     parameters::{Parameters, Row},
     pitch::{PitchLoop, PitchTrim, Steady},
     servo::{Move, Servo},
-    supervisor::{Abort, Supervisor, Vitals},
+    streak::Streak,
+    supervisor::{Abort, Supervisor, Vitals, Watch},
     table::TrimTable,
     vehicle::{FlightVehicle, Range},
 };
@@ -62,6 +63,7 @@ struct Config<'a> {
     dive: Steady,
     climb: Steady,
     apogee_pitch_cdeg: i32,
+    altitude_samples: u32,
 }
 
 /// What does.
@@ -69,7 +71,9 @@ struct Config<'a> {
 struct State {
     navigator: Navigator,
     executive: Executive,
+    watch: Watch,
     abort: Option<Abort>,
+    bottom: Streak,
     dive_trim: PitchTrim,
     climb_trim: PitchTrim,
     mu_target_cdeg: i32,
@@ -105,7 +109,7 @@ impl<'a> Autopilot<'a> {
     pub fn step(&mut self, tick: u32, measurements: &Measurements) -> Commands {
         let afloat = self.state.is_afloat();
         self.state.navigator.update(self.config.table.vehicle(), tick, measurements, afloat);
-        self.supervise(tick);
+        self.supervise(tick, measurements);
         if let Some(event) = self.event(tick, measurements) {
             self.state.executive.take(tick, event);
         }
@@ -113,15 +117,17 @@ impl<'a> Autopilot<'a> {
         self.drive(measurements, &targets)
     }
 
-    fn supervise(&mut self, tick: u32) {
+    fn supervise(&mut self, tick: u32, measurements: &Measurements) {
         let state = &mut self.state;
         let vitals = Vitals {
             tick,
             depth_mm: state.navigator.depth_mm(),
             depth_tick: state.navigator.depth_tick.unwrap_or(0),
             attitude_tick: state.navigator.attitude_tick.unwrap_or(0),
+            under_way: !state.is_afloat(),
+            measurements,
         };
-        if let Some(abort) = self.config.supervisor.judge(&vitals)
+        if let Some(abort) = self.config.supervisor.judge(&mut state.watch, &vitals)
             && state.executive.take(tick, Event::Abort)
         {
             state.abort = Some(abort);
@@ -129,13 +135,14 @@ impl<'a> Autopilot<'a> {
     }
 
     /// What happened that may end the phase.
-    fn event(&self, tick: u32, measurements: &Measurements) -> Option<Event> {
+    fn event(&mut self, tick: u32, measurements: &Measurements) -> Option<Event> {
+        let near_bottom = self.is_near_bottom(measurements);
         let (config, navigator, executive) = (&self.config, &self.state.navigator, &self.state.executive);
         let net_mass_kg = config.table.vehicle().net_mass_kg(measurements.vbd_ul);
-        let lead_m = navigator.depth_rate_m_s * config.reversal_s(&executive.phase);
-        let ahead_mm = math::round_to_i32((navigator.depth_m + lead_m) * MM_PER_M);
+        let ahead_mm = math::round_to_i32((navigator.depth_m + self.reversal_lead_m()) * MM_PER_M);
         let (met, event) = match executive.phase {
             Phase::Surface => (self.is_ready_to_dive(tick), Event::ReadyToDive),
+            Phase::Dive if near_bottom => (true, Event::NearBottom),
             Phase::Dive => (ahead_mm >= config.mission.dive_to_mm, Event::DeepEnough),
             Phase::Apogee => (net_mass_kg <= 0.5 * config.climb.net_mass_kg, Event::Light),
             Phase::Climb if executive.yo < config.mission.yos => {
@@ -150,6 +157,23 @@ impl<'a> Autopilot<'a> {
             Phase::Complete | Phase::Recovery => (false, Event::Abort),
         };
         met.then_some(event)
+    }
+
+    /// Depth that will be gained before a reversal that starts now takes effect, m.
+    fn reversal_lead_m(&self) -> f32 {
+        self.state.navigator.depth_rate_m_s * self.config.reversal_s(&self.state.executive.phase)
+    }
+
+    /// Whether a dive that turns now comes as near to the sea floor as it may; one false echo does not say so.
+    fn is_near_bottom(&mut self, measurements: &Measurements) -> bool {
+        let least_mm = self.config.mission.altitude_mm;
+        if least_mm == 0 || self.state.executive.phase != Phase::Dive {
+            self.state.bottom = Streak::default();
+            return false;
+        }
+        let lead_mm = math::round_to_i32(self.reversal_lead_m() * MM_PER_M);
+        let near = measurements.altitude_mm.map(|height_mm| height_mm.saturating_sub(lead_mm) <= least_mm);
+        self.state.bottom.take(near, self.config.altitude_samples)
     }
 
     fn is_ready_to_dive(&self, tick: u32) -> bool {
@@ -264,6 +288,7 @@ impl<'a> Config<'a> {
             dive: steady(mission.dive_path_angle_cdeg, mission.dive_net_mass_g),
             climb: steady(mission.climb_path_angle_cdeg, mission.climb_net_mass_g),
             apogee_pitch_cdeg: parameters.apogee_pitch_cdeg,
+            altitude_samples: parameters.altitude_samples.unsigned_abs(),
             mission: mission.clone(),
             table: table.clone(),
         }

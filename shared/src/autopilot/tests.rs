@@ -18,6 +18,7 @@ fn mission() -> Mission {
         climb_net_mass_g: -250,
         headings_cdeg: Vec::from_slice(&[9_000]).unwrap(),
         surface_time_s: 1,
+        altitude_mm: 0,
         abort_depth_mm: 110_000,
         max_duration_s: 3_600,
     }
@@ -33,11 +34,13 @@ fn well(depth_m: i32, vbd_ul: i32) -> Measurements {
             pitch_rate_cdeg_s: 0,
             yaw_rate_cdeg_s: 0,
         }),
-        r_px_um: 0,
-        mu_cdeg: 0,
         vbd_ul,
-        battery_mv: 15_000,
+        battery_mv: Some(15_000),
+        charge_mc: Some(0),
+        leak_mv: Some(2_500),
+        vacuum_pa: Some(27_000),
         gps: Some(GpsFix { lat_e7: 590_000_000, lon_e7: 50_000_000 }),
+        ..Measurements::silent()
     }
 }
 
@@ -82,6 +85,44 @@ fn without_fresh_depth_it_ends_the_dive_and_pumps() {
     });
 }
 
+/// Dives at 0.2 m/s towards a floor at 60 m; the altimeter says what `echo` makes of the true height, mm.
+/// The height at which it turns, mm, if it does within 300 s.
+fn turns_at_mm(altitude_mm: i32, echo: impl Fn(u32, i32) -> Option<i32>) -> Option<i32> {
+    let file = file();
+    let table = TrimTable::parse(&file).unwrap();
+    let mission = Mission { altitude_mm, ..mission() };
+    let mut autopilot = Autopilot::new(&table, &mission, &Parameters::default()).unwrap();
+    for tick in 0..20 {
+        autopilot.step(tick, &well(0, 300_000));
+    }
+    (20_u32..).zip((0..60_000_i32).step_by(50)).find_map(|(tick, depth_mm)| {
+        let height_mm = 60_000_i32.saturating_sub(depth_mm);
+        let measurements = Measurements {
+            pressure_pa: Some((depth_mm as f32 * 9.81) as i32),
+            altitude_mm: echo(tick, height_mm),
+            ..well(0, -250_000)
+        };
+        (autopilot.step(tick, &measurements).phase == Phase::Apogee).then_some(height_mm)
+    })
+}
+
+#[test]
+fn the_floor_ends_a_dive_where_asked_and_with_the_way_that_the_reversal_takes() {
+    // 0.2 m/s for two thirds of the 6 s to neutral at 42 ml/s, and 4 s of coasting: 1.6 m; and 0.15 m until the third echo.
+    let turn_mm = turns_at_mm(15_000, |_, height_mm| Some(height_mm)).unwrap();
+    assert!((16_300..=16_800).contains(&turn_mm), "{turn_mm} mm above the floor");
+    assert_eq!(turns_at_mm(0, |_, height_mm| Some(height_mm)), None, "off");
+    assert_eq!(turns_at_mm(15_000, |_, _| None), None, "without an echo it goes on to its depth");
+    let dropping_out = turns_at_mm(15_000, |tick, height_mm| tick.is_multiple_of(3).then_some(height_mm)).unwrap();
+    assert!((turn_mm - 500..turn_mm).contains(&dropping_out), "three echoes later all the same: {dropping_out} mm");
+}
+
+#[test]
+fn two_false_echoes_in_a_row_end_no_dive() {
+    let false_echoes = |tick: u32, _| Some(if tick.is_multiple_of(3) { 90_000 } else { 500 });
+    assert_eq!(turns_at_mm(15_000, false_echoes), None);
+}
+
 /// Whatever the instruments say, rates stay within the drives', nothing overflows (tests check for it) and nothing panics.
 #[test]
 fn nonsense_from_the_instruments_never_gets_past_the_limits() {
@@ -111,8 +152,13 @@ fn nonsense_from_the_instruments_never_gets_past_the_limits() {
                 r_px_um: extreme(random()),
                 mu_cdeg: small(random()),
                 vbd_ul: extreme(random()),
-                battery_mv: random() as u16,
+                battery_mv: (random() % 3 > 0).then(|| random() as u16),
+                charge_mc: (random() % 3 > 0).then(|| i64::from(extreme(random())) * i64::from(extreme(random()))),
+                altitude_mm: (random() % 3 > 0).then(|| extreme(random())),
+                leak_mv: (random() % 3 > 0).then(|| random() as u16),
+                vacuum_pa: (random() % 3 > 0).then(|| extreme(random())),
                 gps: (random() % 9 == 0).then(|| GpsFix { lat_e7: extreme(random()), lon_e7: extreme(random()) }),
+                modem_up: random() % 2 == 0,
             };
             let commands = autopilot.step(tick.wrapping_mul(random() % 2), &measurements);
             assert!(commands.r_px_rate_um_s.abs() <= 10_000, "{commands:?}");

@@ -6,6 +6,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
+use serde::Serialize;
 use shared::{
     autopilot::{Autopilot, ConfigurationError},
     table::TrimTable,
@@ -13,6 +14,7 @@ use shared::{
 
 use super::progress::Progress;
 use crate::{
+    faults_file::FaultsFile,
     flight::{FlyingVehicle, Summary, fly},
     mission_file::MissionFile,
     ocean::Ocean,
@@ -41,6 +43,10 @@ pub(super) struct Args {
     /// Seed of all noise
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
+    /// Path of a faults file, or the name of embedded faults: none, leak, dead-pressure, compass-deviation, altimeter-dropout,
+    /// weak-battery, stuck-pump. What goes wrong, and how large the errors of the instruments are
+    #[arg(long, value_name = "FAULTS", default_value = "none")]
+    faults: String,
     /// Folder for report, record and summary
     #[arg(long, value_name = "DIR", default_value = "dive")]
     out: PathBuf,
@@ -49,10 +55,19 @@ pub(super) struct Args {
     json: bool,
 }
 
+/// What came of it, and what was made to go wrong.
+#[derive(Serialize)]
+struct Answer<'a> {
+    faults: &'a str,
+    #[serde(flatten)]
+    summary: &'a Summary,
+}
+
 pub(super) fn run(args: &Args) -> Result<(), String> {
     let file = MissionFile::load(&args.mission).map_err(|error| error.to_string())?;
     let vehicle = super::load_vehicle(args.vehicle.as_ref().unwrap_or(&file.vehicle))?;
-    let flying = FlyingVehicle::new(&vehicle)?;
+    let faults = FaultsFile::load(&args.faults).map_err(|error| error.to_string())?;
+    let flying = faults.on(FlyingVehicle::new(&vehicle)?);
     let ocean = Ocean::load(&args.environment, &vehicle.water).map_err(|error| error.to_string())?;
     let table_bytes = match &args.table {
         Some(path) => fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?,
@@ -73,18 +88,19 @@ pub(super) fn run(args: &Args) -> Result<(), String> {
     progress.finish();
 
     let flight = Flight { vehicle: &vehicle, mission: &file.mission, record: &record, summary: &summary };
-    write_folder(&args.out, &flight)?;
-    if args.json { super::print_json(&summary) } else { super::print(&describe_flight(args, &summary)) }
+    let answer = Answer { faults: &args.faults, summary: &summary };
+    write_folder(&args.out, &flight, &answer)?;
+    if args.json { super::print_json(&answer) } else { super::print(&describe_flight(args, &summary)) }
 }
 
 /// Report, record and summary of a flight, in one folder.
-fn write_folder(out: &Path, flight: &Flight<'_>) -> Result<(), String> {
+fn write_folder(out: &Path, flight: &Flight<'_>, answer: &Answer<'_>) -> Result<(), String> {
     flight.record.write_csv(&out.join("record.csv"))?;
     flight.record.write_parquet(&out.join("record.parquet"))?;
     whole_file::write(&out.join("report.html"), |file| writeln!(file, "{}", report::html(flight)))?;
     whole_file::write(&out.join("picture.svg"), |file| writeln!(file, "{}", report::picture(flight)))?;
     whole_file::write(&out.join("summary.json"), |file| {
-        serde_json::to_writer_pretty(&mut *file, flight.summary)?;
+        serde_json::to_writer_pretty(&mut *file, answer)?;
         writeln!(file)
     })
 }

@@ -2,8 +2,11 @@
 
 mod endurance;
 mod fly;
+mod locus;
+mod paper;
 mod polar;
 mod progress;
+mod schema;
 mod size;
 mod stability;
 mod table;
@@ -43,10 +46,16 @@ enum Command {
     Size(size::Args),
     /// Count the dives of a battery: range and endurance, ideal and realistic
     Endurance(endurance::Args),
+    /// Vary the shape: how the modes move, as root loci
+    Locus(locus::Args),
+    /// Reproduce every figure and table of the paper, side by side with what it prints
+    Paper(paper::Args),
     /// Generate the trim table that flies
     Table(table::Args),
     /// Draw a three-view to scale and the forces of a steady glide, as SVG
     Draw(trim::DrawArgs),
+    /// Print the JSON Schema of a kind of file, for editors that complete and check it
+    Schema(schema::Args),
     /// Put one state through the equations: JSON from stdin, JSON to stdout
     Eval(EvalArgs),
 }
@@ -71,8 +80,11 @@ pub fn main() -> ExitCode {
         Command::Polar(args) => polar::run(&args),
         Command::Size(args) => size::run(&args),
         Command::Endurance(args) => endurance::run(&args),
+        Command::Locus(args) => locus::run(&args),
+        Command::Paper(args) => paper::run(&args),
         Command::Table(args) => table::run(&args),
         Command::Draw(args) => trim::draw(&args),
+        Command::Schema(args) => schema::run(&args),
         Command::Eval(args) => run_eval(&args),
     };
     match result {

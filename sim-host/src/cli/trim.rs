@@ -54,6 +54,12 @@ pub(super) struct DrawArgs {
 
 impl GlideArgs {
     pub(super) fn solve(&self, vehicle: &Vehicle) -> Result<Glide, String> {
+        let (condition, scale) = self.wanted(vehicle);
+        glide(vehicle, condition, scale)
+    }
+
+    /// Which glide is asked for, and how fast.
+    pub(super) fn wanted(&self, vehicle: &Vehicle) -> (Condition, Scale) {
         let condition = match self.path_angle_deg {
             Some(degrees) => Condition::PathAngle(degrees.to_radians()),
             None if self.min_glide_angle => Condition::MinGlideAngle,
@@ -64,7 +70,7 @@ impl GlideArgs {
             (None, Some(speed_m_s)) => Scale::Speed(speed_m_s),
             (None, None) => Scale::Speed(vehicle.nominal_speed_m_s),
         };
-        glide(vehicle, condition, scale)
+        (condition, scale)
     }
 }
 

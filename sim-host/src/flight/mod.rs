@@ -8,8 +8,8 @@ mod summary;
 
 pub use actuators::EnergyUsed;
 pub use battery::Cells;
-pub use faults::{Dropout, Faults, Instrument, Seep};
-pub use sensors::{CompassErrors, PressureErrors, SensorErrors};
+pub use faults::{Actuator, Drain, Dropout, Faults, Instrument, Seep, Stuck};
+pub use sensors::{AltimeterErrors, CompassErrors, HousekeepingErrors, PressureErrors, SensorErrors};
 pub use summary::{Loss, NorthEast, Outcome, Summary, Surfacing, TraceHash};
 
 use nalgebra::Vector3;
@@ -55,8 +55,14 @@ pub struct Tick<'a> {
     pub state: &'a State<f64>,
     /// The water at the centre of buoyancy.
     pub water: &'a ocean::Sample,
+    /// Depth of the sea floor below it, m, if there is one.
+    pub floor_depth_m: Option<f64>,
     /// Electrical energy used so far.
     pub energy: &'a EnergyUsed,
+    /// Ideal work p ΔV of the pump so far, J.
+    pub pump_work_j: f64,
+    /// Charge drawn from the battery so far, C.
+    pub charge_c: f64,
 }
 
 /// A vehicle that has all it takes to fly.
@@ -127,7 +133,8 @@ pub fn fly(
     for tick in 0..=last_tick {
         let time_s = f64::from(tick) * TICK_S;
         let here = ocean.sample(&state.position_m, time_s);
-        let measurements = sensors.measure(&state, &here, &actuators);
+        let floor_depth_m = ocean.floor_depth_m(state.position_m.x, state.position_m.y);
+        let measurements = sensors.measure(&state, &here, floor_depth_m, &actuators);
         let commands = pilot.step(tick, &measurements)?;
         let shown = Tick {
             tick,
@@ -135,11 +142,14 @@ pub fn fly(
             commands: &commands,
             state: &state,
             water: &here,
+            floor_depth_m,
             energy: &actuators.used,
+            pump_work_j: actuators.pump_work_j,
+            charge_c: actuators.battery.charge_c(),
         };
         log.take(&shown);
         observe(&shown);
-        if let Some(loss) = lost(flying, ocean, &state.position_m) {
+        if let Some(loss) = lost(flying, floor_depth_m, state.position_m.z) {
             outcome = Err(loss);
             break;
         }
@@ -152,12 +162,11 @@ pub fn fly(
     Ok(log.summary(outcome, &actuators, began.elapsed().as_secs_f64()))
 }
 
-/// Whether a place ends the flight.
-fn lost(flying: &FlyingVehicle<'_>, ocean: &Ocean, position_m: &Vector3<f64>) -> Option<Loss> {
-    let floor_m = ocean.floor_depth_m(position_m.x, position_m.y);
-    if position_m.z > flying.limits.crush_depth_m {
+/// Whether a depth ends the flight.
+fn lost(flying: &FlyingVehicle<'_>, floor_depth_m: Option<f64>, depth_m: f64) -> Option<Loss> {
+    if depth_m > flying.limits.crush_depth_m {
         Some(Loss::Crushed)
-    } else if floor_m.is_some_and(|floor_m| position_m.z > floor_m) {
+    } else if floor_depth_m.is_some_and(|floor_m| depth_m > floor_m) {
         Some(Loss::Grounded)
     } else {
         None

@@ -84,9 +84,14 @@ pub const COLUMNS: &[Column] = &[
     integer("r_px_um", "axial position of the moving mass", |s| Some(s.measurements.r_px_um.into())),
     integer("mu_cdeg", "rotation of the moving mass, left positive", |s| Some(s.measurements.mu_cdeg.into())),
     integer("vbd_ul", "volume of the buoyancy device beyond neutral", |s| Some(s.measurements.vbd_ul.into())),
-    integer("battery_mv", "battery voltage", |s| Some(s.measurements.battery_mv.into())),
+    integer("battery_mv", "battery voltage under load", |s| Some(s.measurements.battery_mv?.into())),
+    integer("charge_mc", "charge drawn from the battery", |s| s.measurements.charge_mc),
+    integer("altitude_mm", "height above the sea floor", |s| Some(s.measurements.altitude_mm?.into())),
+    integer("leak_mv", "voltage of the leak detector, high while dry", |s| Some(s.measurements.leak_mv?.into())),
+    integer("vacuum_pa", "air pressure less the hull's", |s| Some(s.measurements.vacuum_pa?.into())),
     integer("lat_e7", "latitude of a position fix, 1e-7 deg", |s| Some(fix(s)?.lat_e7.into())),
     integer("lon_e7", "longitude of a position fix, 1e-7 deg", |s| Some(fix(s)?.lon_e7.into())),
+    integer("modem_up", "1 with a link to shore, 0 without", |s| Some(s.measurements.modem_up.into())),
     // What it answered
     integer("r_px_rate_um_s", "commanded speed of the moving mass", |s| Some(s.commands.r_px_rate_um_s.into())),
     integer("mu_rate_cdeg_s", "commanded rotation of the moving mass", |s| Some(s.commands.mu_rate_cdeg_s.into())),
@@ -102,6 +107,7 @@ pub const COLUMNS: &[Column] = &[
     real("true_north_m", "north of the start", |_, s| Some(s.truth.position_m.x)),
     real("true_east_m", "east of the start", |_, s| Some(s.truth.position_m.y)),
     real("true_depth_m", "depth of the centre of buoyancy", |_, s| Some(s.truth.position_m.z)),
+    real("true_altitude_m", "height above the sea floor", |_, s| s.truth.altitude_m()),
     real("true_roll_rad", "roll", |_, s| Some(s.truth.euler_rad.x)),
     real("true_pitch_rad", "pitch", |_, s| Some(s.truth.euler_rad.y)),
     real("true_heading_rad", "heading", |_, s| Some(s.truth.euler_rad.z)),
@@ -127,6 +133,8 @@ pub const COLUMNS: &[Column] = &[
     real("energy_pitch_j", "used so far by the axial drive", |_, s| Some(s.energy_j.pitch)),
     real("energy_roll_j", "used so far by the rotation drive", |_, s| Some(s.energy_j.roll)),
     real("energy_hotel_j", "used so far by everything else", |_, s| Some(s.energy_j.hotel)),
+    real("pump_work_j", "ideal work p ΔV of the pump so far", |_, s| Some(s.pump_work_j)),
+    real("charge_c", "charge drawn from the battery so far", |_, s| Some(s.charge_c)),
 ];
 
 fn attitude(sample: &Sample) -> Option<Attitude> {

@@ -41,6 +41,10 @@ pub struct Sample {
     pub truth: Truth,
     /// Electrical energy used so far.
     pub energy_j: EnergyUsed,
+    /// Ideal work p ΔV of the pump so far, J.
+    pub pump_work_j: f64,
+    /// Charge drawn from the battery so far, C.
+    pub charge_c: f64,
 }
 
 /// The state of the plant.
@@ -56,6 +60,8 @@ pub struct Truth {
     pub ground_velocity_m_s: Vector3<f64>,
     /// The water at the centre of buoyancy.
     pub water: ocean::Sample,
+    /// Depth of the sea floor below it, m, if there is one.
+    pub floor_depth_m: Option<f64>,
     /// Rates about the body's axes, rad/s.
     pub rate_rad_s: Vector3<f64>,
     /// Axial position of the moving mass, m.
@@ -75,6 +81,12 @@ impl Sample {
 }
 
 impl Truth {
+    /// Height above the sea floor, m, if there is one.
+    #[must_use]
+    pub fn altitude_m(&self) -> Option<f64> {
+        Some(self.floor_depth_m? - self.position_m.z)
+    }
+
     /// V, through the water, m/s.
     #[must_use]
     pub fn speed_m_s(&self) -> f64 {
@@ -120,12 +132,15 @@ impl From<&Tick<'_>> for Sample {
                 ground_velocity_m_s: rotation_from_quaternion(&state.quaternion) * state.velocity_m_s
                     + tick.water.around.current_m_s,
                 water: *tick.water,
+                floor_depth_m: tick.floor_depth_m,
                 rate_rad_s: state.rate_rad_s,
                 r_px_m: state.r_px_m,
                 mu_rad: state.mu_rad,
                 displaced_volume_m3: state.displaced_volume_m3,
             },
             energy_j: *tick.energy,
+            pump_work_j: tick.pump_work_j,
+            charge_c: tick.charge_c,
         }
     }
 }

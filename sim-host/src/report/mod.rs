@@ -2,7 +2,6 @@
 
 pub mod figures;
 mod picture;
-mod plot;
 mod tables;
 mod traces;
 mod track;
@@ -11,6 +10,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 use shared::mission::Mission;
 
 use crate::{
+    chart::plot::{self, BELOW_PX, LEFT_PX, Plot},
     draw::{DrawnGlide, sheet},
     flight::Summary,
     record::Record,
@@ -18,7 +18,6 @@ use crate::{
     vehicle::Vehicle,
 };
 pub use picture::picture;
-use plot::{BELOW_PX, LEFT_PX, Plot};
 use traces::{DepthTargets, Trace, Traces};
 use track::{PLACE_KEY, TRACK_KEY};
 
@@ -61,7 +60,7 @@ pub fn html(flight: &Flight<'_>) -> String {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 title { "Dive of " (name) }
-                style { (PreEscaped(include_str!("report.css"))) (PreEscaped(include_str!("plot.css"))) }
+                style { (PreEscaped(include_str!("report.css"))) (PreEscaped(plot::CSS)) }
             }
             body {
                 header { h1 { "Dive of " (name) } p { (mission_line(flight.mission)) } }

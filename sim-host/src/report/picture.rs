@@ -2,15 +2,19 @@
 
 use svg::{
     Document, Node,
-    node::element::{Rectangle, SVG, Style, Text},
+    node::element::{Rectangle, SVG, Style},
 };
 
 use super::{
     Flight,
-    plot::{BELOW_PX, LEFT_PX, Plot},
     tables::duration,
     traces::{Trace, Traces},
     track,
+};
+use crate::chart::{
+    CSS as CHART_CSS, KEY_GAP_PX, key, key_px, place,
+    plot::{self, BELOW_PX, LEFT_PX},
+    words,
 };
 
 const WIDTH_PX: f64 = 900.0;
@@ -22,8 +26,6 @@ const TOP_PX: f64 = 76.0;
 const GAP_PX: f64 = 30.0;
 /// Width of the plots over time, their words left out.
 const TIME_PX: f64 = 500.0;
-/// Between two entries of a key.
-const KEY_GAP_PX: f64 = 16.0;
 /// From the caption's base line to its plot.
 const CAPTION_PX: f64 = 8.0;
 
@@ -36,7 +38,7 @@ pub fn picture(flight: &Flight<'_>) -> String {
         .set("height", HEIGHT_PX)
         .set("role", "img")
         .set("aria-label", format!("A dive of {}", flight.vehicle.name));
-    sheet.append(Style::new([include_str!("plot.css"), include_str!("picture.css")].concat()));
+    sheet.append(Style::new([plot::CSS, CHART_CSS, include_str!("picture.css")].concat()));
     sheet.append(Rectangle::new().set("width", "100%").set("height", "100%").set("fill", "#ffffff"));
     let title = format!(
         "{}: {}, {:.0} m deep, {:.1} kJ",
@@ -83,10 +85,6 @@ pub fn picture(flight: &Flight<'_>) -> String {
     sheet.to_string()
 }
 
-fn place(sheet: &mut SVG, plot: &Plot, [x, y]: [f64; 2], [width, height]: [f64; 2]) {
-    sheet.append(plot.svg().set("x", x).set("y", y).set("width", width).set("height", height));
-}
-
 /// Title, unit and key in one line above a plot.
 fn caption(sheet: &mut SVG, [x, y]: [f64; 2], trace: &Trace) {
     words(sheet, "name", [x, y], &format!("{}, {}", trace.title, trace.unit));
@@ -100,19 +98,4 @@ fn caption(sheet: &mut SVG, [x, y]: [f64; 2], trace: &Trace) {
 
 fn swatch(class: &str, [x, y]: [f64; 2]) -> Rectangle {
     Rectangle::new().set("class", format!("swatch {class}")).set("x", x).set("y", y).set("width", 11).set("height", 11)
-}
-
-/// About how wide an entry of a key is, px.
-fn key_px(meaning: &str) -> f64 {
-    26.0 + 6.3 * meaning.chars().count() as f64
-}
-
-fn key(sheet: &mut SVG, class: &str, [x, y]: [f64; 2], meaning: &str) {
-    let line = svg::node::element::Line::new().set("class", format!("key {class}"));
-    sheet.append(line.set("x1", x).set("x2", x + 20.0).set("y1", y - 4.0).set("y2", y - 4.0));
-    words(sheet, "meaning", [x + 26.0, y], meaning);
-}
-
-fn words(sheet: &mut SVG, class: &str, [x, y]: [f64; 2], words: &str) {
-    sheet.append(Text::new(words).set("class", class).set("x", x).set("y", y));
 }

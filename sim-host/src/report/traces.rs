@@ -5,7 +5,7 @@ use shared::{
     mission::Phase,
 };
 
-use super::plot::{Axis, Band, Curve, Plot};
+use crate::chart::plot::{Axis, Band, Curve, Plot};
 use crate::record::{Record, Sample};
 
 /// Depth above which speed and angle of attack say nothing about gliding, m.

@@ -2,7 +2,7 @@
 
 use shared::device::MM_PER_M;
 
-use super::plot::{Axis, Curve, Plot, Spot};
+use crate::chart::plot::{Axis, Curve, Plot, Shape, Spot};
 use crate::{
     flight::{NorthEast, Surfacing},
     record::{Record, Sample},
@@ -44,7 +44,7 @@ pub(super) fn top(record: &Record, surfacing: &Surfacing) -> TopView {
     let curves = vec![true_track, reckoned];
     let [east, north] = [0, 1].map(|axis| extent(&curves, axis));
     let (shape, [east, north]) = shaped(east, north);
-    let spot = |class, place: NorthEast| Spot { class, at: [place.east_m, place.north_m] };
+    let spot = |class, place: NorthEast| Spot { class, at: [place.east_m, place.north_m], shape: Shape::Circle };
     let start = Some(NorthEast { north_m: 0.0, east_m: 0.0 });
     let places = [("start", start), ("actual", surfacing.actual), ("predicted", surfacing.predicted)];
     let spots = places.into_iter().filter_map(|(class, place)| place.map(|place| spot(class, place))).collect();

@@ -4,10 +4,12 @@
 //! gathered on the way, keys that nobody asked for count as unknown, and the first mistake becomes the [`FileError`].
 
 mod rule;
+mod schema;
 mod section;
 
-use std::{cell::RefCell, fmt};
+use std::{cell::RefCell, fmt, rc::Rc};
 
+use serde_json::Value;
 use toml_edit::Document;
 
 pub use rule::Rule;
@@ -47,6 +49,30 @@ struct Mistake {
 struct Source<'a> {
     text: &'a str,
     mistakes: RefCell<Vec<Mistake>>,
+    /// What was asked for, where a schema is wanted.
+    schema: Option<Rc<RefCell<Value>>>,
+}
+
+impl Source<'_> {
+    const fn is_described(&self) -> bool {
+        self.schema.is_some()
+    }
+
+    fn describe(&self, path: &str, key: &str, required: bool, schema: impl FnOnce() -> Value) {
+        if let Some(whole) = &self.schema {
+            schema::add(&mut whole.borrow_mut(), path, key, required, schema());
+        }
+    }
+}
+
+/// The JSON Schema of a file: everything that `build` asks for, with its bounds.
+#[must_use]
+pub fn schema<T>(title: &str, build: impl FnOnce(&mut Section<'_>) -> T) -> Value {
+    let whole = Rc::new(RefCell::new(schema::root(title)));
+    let source = Source { text: "", mistakes: RefCell::default(), schema: Some(Rc::clone(&whole)) };
+    section::read_root(&source, &toml_edit::Table::new(), build);
+    drop(source);
+    whole.take()
 }
 
 /// Parses a text and lets `build` read its root.
@@ -61,7 +87,7 @@ pub fn read<T>(text: &str, file: &str, build: impl FnOnce(&mut Section<'_>) -> T
         Ok(document) => document,
         Err(error) => return fail(error.span().map_or(0, |span| span.start), error.message()),
     };
-    let source = Source { text, mistakes: RefCell::default() };
+    let source = Source { text, mistakes: RefCell::default(), schema: None };
     let built = section::read_root(&source, document.as_table(), build);
     let mistakes = source.mistakes.into_inner();
     match mistakes.iter().min_by_key(|mistake| (!mistake.unknown_key, mistake.offset)) {

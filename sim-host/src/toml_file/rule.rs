@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use serde_json::{Value, json};
+
 /// Bounds of a number; an infinite or undefined number never holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Rule {
@@ -32,6 +34,20 @@ impl Rule {
                 Self::Above(least) => value > least,
                 Self::Within(least, most) => (least..=most).contains(&value),
             }
+    }
+}
+
+impl Rule {
+    /// The rule in the words of JSON Schema.
+    pub(super) fn schema(self) -> Value {
+        match self {
+            Self::Finite => json!({ "type": "number" }),
+            Self::Positive => json!({ "type": "number", "exclusiveMinimum": 0 }),
+            Self::NotNegative => json!({ "type": "number", "minimum": 0 }),
+            Self::NotPositive => json!({ "type": "number", "maximum": 0 }),
+            Self::Above(least) => json!({ "type": "number", "exclusiveMinimum": least }),
+            Self::Within(least, most) => json!({ "type": "number", "minimum": least, "maximum": most }),
+        }
     }
 }
 

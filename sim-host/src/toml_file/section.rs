@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use nalgebra::Matrix3;
 use toml_edit::{Item, Table, TableLike, Value};
 
-use super::{Mistake, Rule, Source};
+use super::{Mistake, Rule, Source, schema};
 
 /// Likeness from which a key is taken for a mistyped one (Jaro–Winkler, 0 to 1).
 const LIKENESS: f64 = 0.8;
@@ -56,6 +56,7 @@ impl Section<'_> {
         missing: String,
         build: impl FnOnce(&mut Section<'_>) -> T,
     ) -> T {
+        self.describe(key, true, schema::section);
         if !self.has(key) {
             self.mistake(self.offset, missing);
         }
@@ -64,14 +65,16 @@ impl Section<'_> {
 
     /// Reads a table that may be left out.
     pub fn optional_section<T>(&mut self, key: &'static str, build: impl FnOnce(&mut Section<'_>) -> T) -> Option<T> {
-        self.has(key).then(|| self.present_section(key, build))
+        self.describe(key, false, schema::section);
+        (self.has(key) || self.source.is_described()).then(|| self.present_section(key, build))
     }
 
     /// Reads a table; in place of a missing one an empty one, whose missing keys are no further mistakes.
     fn present_section<T>(&mut self, key: &'static str, build: impl FnOnce(&mut Section<'_>) -> T) -> T {
         let path = self.full(key);
         let empty = Table::new();
-        let unheard = Source { text: self.source.text, mistakes: Default::default() };
+        let unheard =
+            Source { text: self.source.text, mistakes: Default::default(), schema: self.source.schema.clone() };
         match self.item(key).map(|item| (item, item.as_table_like())) {
             Some((item, Some(table))) => {
                 let offset = item.span().map_or_else(|| self.key_offset(key), |span| span.start);
@@ -88,22 +91,26 @@ impl Section<'_> {
 
     /// A number that must be there.
     pub fn number(&mut self, key: &'static str, rule: Rule) -> f64 {
+        self.describe(key, true, || rule.schema());
         self.required(key, &rule.to_string(), |value| number(value).filter(|number| rule.holds(*number)))
             .unwrap_or(f64::NAN)
     }
 
     /// A number that may be left out.
     pub fn number_or(&mut self, key: &'static str, rule: Rule, default: f64) -> f64 {
+        self.describe(key, false, || schema::with_default(rule.schema(), default));
         if self.has(key) { self.number(key, rule) } else { default }
     }
 
     /// A number that may be left out, without a default.
     pub fn optional_number(&mut self, key: &'static str, rule: Rule) -> Option<f64> {
+        self.describe(key, false, || rule.schema());
         self.has(key).then(|| self.number(key, rule))
     }
 
     /// A whole number that must be there.
     pub fn integer(&mut self, key: &'static str, bounds: RangeInclusive<i64>) -> i64 {
+        self.describe(key, true, || schema::integer(&bounds));
         let right = format!("a whole number from {} to {}", bounds.start(), bounds.end());
         let accept = |value: &Value| value.as_integer().filter(|integer| bounds.contains(integer));
         self.required(key, &right, accept).unwrap_or(*bounds.start())
@@ -111,11 +118,13 @@ impl Section<'_> {
 
     /// A whole number that may be left out.
     pub fn integer_or(&mut self, key: &'static str, bounds: RangeInclusive<i64>, default: i64) -> i64 {
+        self.describe(key, false, || schema::with_default(schema::integer(&bounds), default));
         if self.has(key) { self.integer(key, bounds) } else { default }
     }
 
     /// A text of 1 to `longest` characters.
     pub fn text(&mut self, key: &'static str, longest: usize) -> String {
+        self.describe(key, true, || schema::text(longest));
         let right = format!("a text of 1 to {longest} characters");
         let accept = |value: &Value| {
             value.as_str().filter(|text| (1..=longest).contains(&text.chars().count())).map(ToOwned::to_owned)
@@ -125,11 +134,13 @@ impl Section<'_> {
 
     /// A text that may be left out.
     pub fn optional_text(&mut self, key: &'static str, longest: usize) -> Option<String> {
+        self.describe(key, false, || schema::text(longest));
         self.has(key).then(|| self.text(key, longest))
     }
 
     /// One of several words; the first of them if the key is left out.
     pub fn choice_or_first<T: Copy>(&mut self, key: &'static str, words: &[(&str, T)]) -> Option<T> {
+        self.describe(key, false, || schema::choice(words.iter().map(|(word, _)| *word)));
         let names: Vec<_> = words.iter().map(|(word, _)| format!("\"{word}\"")).collect();
         if !self.has(key) {
             return words.first().map(|(_, choice)| *choice);
@@ -141,16 +152,19 @@ impl Section<'_> {
 
     /// A list of `N` numbers.
     pub fn numbers<const N: usize>(&mut self, key: &'static str, rule: Rule) -> [f64; N] {
+        self.describe(key, true, || schema::list(rule.schema(), N, N));
         self.required(key, &format!("{N} numbers, each {rule}"), |value| numbers(value, rule)).unwrap_or([f64::NAN; N])
     }
 
     /// A list of `N` numbers that may be left out.
     pub fn numbers_or<const N: usize>(&mut self, key: &'static str, rule: Rule, default: [f64; N]) -> [f64; N] {
+        self.describe(key, false, || schema::with_default(schema::list(rule.schema(), N, N), default.as_slice()));
         if self.has(key) { self.numbers(key, rule) } else { default }
     }
 
     /// A list of 1 to `longest` numbers.
     pub fn list(&mut self, key: &'static str, rule: Rule, longest: usize) -> Vec<f64> {
+        self.describe(key, true, || schema::list(rule.schema(), 1, longest));
         let accept = |value: &Value| {
             let list: Option<Vec<f64>> = value.as_array()?.iter().map(number).collect();
             list.filter(|list| (1..=longest).contains(&list.len()) && list.iter().all(|item| rule.holds(*item)))
@@ -160,12 +174,14 @@ impl Section<'_> {
 
     /// `[min, max]` with min below max.
     pub fn range(&mut self, key: &'static str) -> [f64; 2] {
+        self.describe(key, true, || schema::list(Rule::Finite.schema(), 2, 2));
         let accept = |value: &Value| numbers(value, Rule::Finite).filter(|[min, max]| min < max);
         self.required(key, "[min, max] with min below max", accept).unwrap_or([f64::NAN; 2])
     }
 
     /// A 3×3 matrix, by rows.
     pub fn matrix(&mut self, key: &'static str) -> Matrix3<f64> {
+        self.describe(key, true, || schema::list(schema::list(Rule::Finite.schema(), 3, 3), 3, 3));
         let right = "3 rows of 3 finite numbers";
         let rows = self.required(key, right, |value| <[[f64; 3]; 3]>::try_from(rows(value)?).ok());
         rows.map_or(Matrix3::from_element(f64::NAN), |rows| Matrix3::from_fn(|row, column| rows[row][column]))
@@ -173,16 +189,19 @@ impl Section<'_> {
 
     /// Rows of two numbers.
     pub fn pairs(&mut self, key: &'static str) -> Vec<[f64; 2]> {
+        self.describe(key, true, || schema::rows(2));
         self.required(key, "rows of 2 finite numbers", rows).unwrap_or_default()
     }
 
     /// Rows of two numbers that may be left out.
     pub fn optional_pairs(&mut self, key: &'static str) -> Option<Vec<[f64; 2]>> {
+        self.describe(key, false, || schema::rows(2));
         self.has(key).then(|| self.pairs(key))
     }
 
     /// Rows of three numbers.
     pub fn triples(&mut self, key: &'static str) -> Vec<[f64; 3]> {
+        self.describe(key, true, || schema::rows(3));
         self.required(key, "rows of 3 finite numbers", rows).unwrap_or_default()
     }
 
@@ -191,6 +210,11 @@ impl Section<'_> {
         if wrong {
             self.reject(key, right);
         }
+    }
+
+    /// Notes what the key may hold, where a schema is asked for; the first note of a key counts.
+    fn describe(&self, key: &'static str, required: bool, schema: impl FnOnce() -> serde_json::Value) {
+        self.source.describe(&self.path, key, required, schema);
     }
 
     /// Whether the key is there; asking marks it as known.

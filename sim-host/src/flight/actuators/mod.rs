@@ -69,6 +69,11 @@ impl<'a> Actuators<'a> {
         state.displaced_volume_m3 + self.engine.leaked_m3 - self.neutral_volume_m3
     }
 
+    /// Sea water in the hull, m³.
+    pub(super) fn leaked_m3(&self) -> f64 {
+        self.engine.leaked_m3
+    }
+
     /// One tick under some commands, from `time_s` on; `here` is the water where and when it begins.
     pub(super) fn advance(
         &mut self,
@@ -77,12 +82,13 @@ impl<'a> Actuators<'a> {
         commands: &Commands,
         (ocean, here, time_s): (&Ocean, &Sample, f64),
     ) -> State<f64> {
+        let commands = &self.flying.faults.obeyed(commands, time_s);
         let pressure_pa = here.around.pressure_pa;
         let commanded_m3_s = f64::from(commands.vbd_rate_ul_s) / f64::from(UL_PER_M3);
         let place = (self.vbd_m3(state), pressure_pa, time_s);
         let flow = self.engine.flow(self.flying.buoyancy, &self.flying.faults, commanded_m3_s, place);
         let (next, mass_j) = self.moved(plant, state, commands, flow.displaced_m3_s, (ocean, time_s));
-        self.charge(pressure_pa, &flow, mass_j);
+        self.charge(pressure_pa, &flow, mass_j, self.flying.faults.drain.at(time_s));
         next
     }
 
@@ -128,8 +134,8 @@ impl<'a> Actuators<'a> {
         [power(rates[0], energy.pitch_motor_w), power(rates[1], energy.roll_motor_w)]
     }
 
-    /// Takes the energy of a tick from the battery.
-    fn charge(&mut self, pressure_pa: f64, flow: &Flow, [pitch_j, roll_j]: [f64; 2]) {
+    /// Takes the energy of a tick from the battery; a drain counts as hotel load.
+    fn charge(&mut self, pressure_pa: f64, flow: &Flow, [pitch_j, roll_j]: [f64; 2], drain_w: f64) {
         let (buoyancy, before_j) = (self.flying.buoyancy, self.used.total());
         if flow.driven_m3_s > 0.0 {
             self.used.pump += buoyancy.pump_power_w(pressure_pa, flow.driven_m3_s) * TICK_S;
@@ -139,7 +145,7 @@ impl<'a> Actuators<'a> {
         }
         self.used.pitch += pitch_j;
         self.used.roll += roll_j;
-        self.used.hotel += self.flying.energy.hotel_w * TICK_S;
+        self.used.hotel += (self.flying.energy.hotel_w + drain_w) * TICK_S;
         let used_j = self.used.total();
         self.battery.supply((used_j - before_j) / TICK_S, TICK_S, used_j);
     }

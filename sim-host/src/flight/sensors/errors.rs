@@ -9,10 +9,16 @@ pub struct SensorErrors {
     pub pressure: PressureErrors,
     /// Tilt-compensated compass.
     pub compass: CompassErrors,
+    /// Altimeter.
+    pub altimeter: AltimeterErrors,
+    /// Leak detector, vacuum gauge and battery gauge.
+    pub housekeeping: HousekeepingErrors,
     /// Horizontal error of a position fix, per axis, m.
     pub gps_noise_m: f64,
     /// Time with the antenna clear until positions come, s.
     pub gps_acquisition_s: f64,
+    /// Time with the antenna clear until the modem has a link, s.
+    pub modem_acquisition_s: f64,
     /// Noise of the moving mass's potentiometers, over their travel.
     pub pot_noise: f64,
 }
@@ -61,14 +67,51 @@ pub struct CompassErrors {
     pub depth_ut_km: f64,
 }
 
+/// Errors of the altimeter; none of them is a constant of a flight.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AltimeterErrors {
+    /// Nearest floor that it ranges, m along the beam (a size).
+    pub least_m: f64,
+    /// Farthest floor that it ranges, m along the beam (a size).
+    pub most_m: f64,
+    /// Nose-down pitch at which its beam is vertical, deg (a size).
+    pub mount_deg: f64,
+    /// Angle of the beam from the vertical beyond which the floor sends no echo back, deg (a size).
+    pub beam_deg: f64,
+    /// Part of the pings that get no echo for no reason.
+    pub dropout: f64,
+    /// Noise, m.
+    pub noise_m: f64,
+    /// Step of its reading, m (a size).
+    pub step_m: f64,
+}
+
+/// Errors of what watches over the vehicle itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HousekeepingErrors {
+    /// Noise of the leak detector, V.
+    pub leak_noise_v: f64,
+    /// Single readings of the leak detector that look wet, per hour (a rate).
+    pub leak_glitches_per_h: f64,
+    /// Noise of the vacuum gauge, Pa.
+    pub vacuum_noise_pa: f64,
+    /// Noise of the battery's voltmeter, V.
+    pub voltage_noise_v: f64,
+    /// Constant error of the coulomb counter, over the charge.
+    pub charge_gain: f64,
+}
+
 impl Default for SensorErrors {
     /// Chosen within what receivers and 12-bit potentiometers do, whose step is the larger error.
     fn default() -> Self {
         Self {
             pressure: PressureErrors::default(),
             compass: CompassErrors::default(),
+            altimeter: AltimeterErrors::default(),
+            housekeeping: HousekeepingErrors::default(),
             gps_noise_m: 3.0,
             gps_acquisition_s: 20.0,
+            modem_acquisition_s: 10.0,
             pot_noise: 0.0,
         }
     }
@@ -103,6 +146,26 @@ impl Default for CompassErrors {
             battery_ut_m: 0.3,
             battery_roll_ut: 0.1,
             depth_ut_km: 0.3,
+        }
+    }
+}
+
+impl Default for AltimeterErrors {
+    /// An altimeter of 100 m that looks straight down in a dive at 26°, the fielded pitch. Chosen.
+    fn default() -> Self {
+        Self { least_m: 0.5, most_m: 100.0, mount_deg: 26.0, beam_deg: 20.0, dropout: 0.1, noise_m: 0.1, step_m: 0.1 }
+    }
+}
+
+impl Default for HousekeepingErrors {
+    /// Chosen; glitches of leak detectors are known from the field.
+    fn default() -> Self {
+        Self {
+            leak_noise_v: 0.01,
+            leak_glitches_per_h: 1.0,
+            vacuum_noise_pa: 50.0,
+            voltage_noise_v: 0.02,
+            charge_gain: 0.01,
         }
     }
 }

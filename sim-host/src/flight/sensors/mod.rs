@@ -1,30 +1,30 @@
 //! What the instruments make of the truth: noise, bias, lag, quantisation, silence; one seeded generator.
 
+mod altimeter;
+mod antenna;
 mod compass;
 mod errors;
+mod housekeeping;
 mod noise;
 mod pressure;
 
-pub use errors::{CompassErrors, PressureErrors, SensorErrors};
+pub use errors::{AltimeterErrors, CompassErrors, HousekeepingErrors, PressureErrors, SensorErrors};
 
-use shared::device::{GpsFix, Measurements, TICK_HZ};
+use shared::device::{GpsFix, Measurements};
 
 use super::{FlyingVehicle, TICK_S, actuators::Actuators, faults::Instrument};
 use crate::{
     mission_file::{M_PER_DEG, Start},
     ocean::Sample,
-    plant::{State, rotation_from_quaternion},
+    plant::State,
 };
+use altimeter::Altimeter;
+use antenna::{Antenna, Receiver};
 use compass::Compass;
+use housekeeping::{BatteryGauge, HullAir, LeakDetector, VacuumGauge};
 use noise::Noise;
 use pressure::PressureSensor;
 
-/// Antenna above the tail, along the hull's axis, m.
-const ANTENNA_M: f64 = 0.2;
-/// Height of the antenna's tip at which waves no longer wash it, m.
-const CLEAR_M: f64 = 0.05;
-/// Time under water that the search survives: waves wash over the antenna, s.
-const GPS_MEMORY_S: u32 = 20;
 /// Steps of a 12-bit potentiometer over its travel.
 const POT_STEPS: f64 = 4096.0;
 
@@ -34,13 +34,17 @@ pub(super) struct Sensors<'a> {
     flying: FlyingVehicle<'a>,
     noise: Noise,
     start: Start,
-    tail_m: f64,
+    antenna: Antenna,
     pressure: PressureSensor,
     compass: Compass,
+    satellites: Receiver,
+    modem: Receiver,
+    altimeter: Altimeter,
+    leak: LeakDetector,
+    vacuum: VacuumGauge,
+    battery: BatteryGauge,
     pots: [Pot; 3],
     ticks: u32,
-    clear_ticks: u32,
-    under_ticks: u32,
 }
 
 /// A position potentiometer: where its range begins, its step and its noise.
@@ -75,18 +79,28 @@ impl<'a> Sensors<'a> {
             flying: flying.clone(),
             noise,
             start: *start,
-            tail_m: 0.5 * vehicle.hull.length_m + ANTENNA_M,
+            antenna: Antenna::on_hull(vehicle.hull.length_m),
             pressure,
             compass,
+            satellites: Receiver::default(),
+            modem: Receiver::default(),
+            altimeter: Altimeter::new(&errors.altimeter, seed),
+            leak: LeakDetector::new(&errors.housekeeping, seed),
+            vacuum: VacuumGauge::new(flying, seed),
+            battery: BatteryGauge::new(&errors.housekeeping, seed),
             pots: [Pot::over(mass.travel_m, errors.pot_noise), Pot::over(mass.roll_deg, errors.pot_noise), vbd],
             ticks: 0,
-            clear_ticks: 0,
-            under_ticks: 0,
         }
     }
 
-    /// One tick of measurements in some water.
-    pub(super) fn measure(&mut self, state: &State<f64>, here: &Sample, actuators: &Actuators<'_>) -> Measurements {
+    /// One tick of measurements in some water, above a floor if there is one.
+    pub(super) fn measure(
+        &mut self,
+        state: &State<f64>,
+        here: &Sample,
+        floor_depth_m: Option<f64>,
+        actuators: &Actuators<'_>,
+    ) -> Measurements {
         let time_s = f64::from(self.ticks) * TICK_S;
         self.ticks += 1;
         let antenna_is_clear = self.antenna_is_clear(state, here);
@@ -97,33 +111,43 @@ impl<'a> Sensors<'a> {
         let positions = [state.r_px_m, state.mu_rad.to_degrees(), actuators.vbd_m3(state)];
         let [r_px_m, mu_deg, vbd_m3] =
             std::array::from_fn(|index| self.pots[index].read(positions[index], &mut self.noise));
+        let (voltage_v, charge_c) = self.battery.read(&actuators.battery);
+        let leak_v = self.leak.read_v(actuators.leaked_m3());
+        let vacuum_pa = self.vacuum.read_pa(&HullAir {
+            vbd_m3: actuators.vbd_m3(state),
+            leaked_m3: actuators.leaked_m3(),
+            gas_m3: self.flying.faults.gas.gathered_m3(time_s),
+            temperature_c: here.around.temperature_c,
+        });
+        let altitude_m = self.altimeter.read(state, floor_depth_m);
+        let modem_up = self.modem.hears(antenna_is_clear, self.flying.sensor_errors.modem_acquisition_s);
         let heard = |instrument| self.flying.faults.speaks(instrument, time_s);
+        // Casts that saturate: an instrument shows no more than its integer holds.
         Measurements {
             pressure_pa: heard(Instrument::Pressure).then_some(pressure_pa.round() as i32),
             attitude: heard(Instrument::Attitude).then_some(attitude),
             r_px_um: (r_px_m * 1e6).round() as i32,
             mu_cdeg: (mu_deg * 100.0).round() as i16,
             vbd_ul: (vbd_m3 * 1e9).round() as i32,
-            battery_mv: (actuators.battery.voltage_v() * 1e3).round() as u16,
+            battery_mv: heard(Instrument::Voltage).then_some((voltage_v * 1e3).round() as u16),
+            charge_mc: heard(Instrument::Charge).then_some((charge_c * 1e3).round() as i64),
+            altitude_mm: altitude_m.filter(|_| heard(Instrument::Altimeter)).map(|m| (m * 1e3).round() as i32),
+            leak_mv: heard(Instrument::Leak).then_some((leak_v * 1e3).round() as u16),
+            vacuum_pa: heard(Instrument::Vacuum).then_some(vacuum_pa.round() as i32),
             gps: fix.filter(|_| heard(Instrument::Gps)),
+            modem_up: modem_up && heard(Instrument::Modem),
         }
     }
 
-    /// Whether the antenna, on the tail, is out of the water.
+    /// Whether the antenna is out of the water.
     pub(super) fn antenna_is_clear(&self, state: &State<f64>, here: &Sample) -> bool {
-        let down = rotation_from_quaternion(&state.quaternion).row(2).transpose();
-        state.position_m.z + here.around.surface_m - down.x * self.tail_m < -CLEAR_M
+        self.antenna.is_clear(state, here)
     }
 
     fn fix(&mut self, state: &State<f64>, antenna_is_clear: bool) -> Option<GpsFix> {
-        self.under_ticks = if antenna_is_clear { 0 } else { self.under_ticks.saturating_add(1) };
-        if self.under_ticks > GPS_MEMORY_S * TICK_HZ {
-            self.clear_ticks = 0;
-        }
-        self.clear_ticks = self.clear_ticks.saturating_add(antenna_is_clear.into());
         let errors = &self.flying.sensor_errors;
         let error_m = [errors.gps_noise_m; 2].map(|sigma| self.noise.normal(sigma));
-        if !antenna_is_clear || f64::from(self.clear_ticks) < errors.gps_acquisition_s * f64::from(TICK_HZ) {
+        if !self.satellites.hears(antenna_is_clear, errors.gps_acquisition_s) {
             return None;
         }
         let latitude_deg = self.start.latitude_deg + (state.position_m.x + error_m[0]) / M_PER_DEG;

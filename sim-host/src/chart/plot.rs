@@ -7,10 +7,12 @@ use svg::{
     node::element::{Circle, Line as Rule, Polygon, Polyline, Rectangle, SVG, Text},
 };
 
+/// The styles of everything in a plot.
+pub(crate) const CSS: &str = include_str!("plot.css");
 /// Room for the words of the upright axis, px.
-pub(super) const LEFT_PX: f64 = 48.0;
+pub(crate) const LEFT_PX: f64 = 48.0;
 /// Room for the words of the level axis, px.
-pub(super) const BELOW_PX: f64 = 22.0;
+pub(crate) const BELOW_PX: f64 = 22.0;
 /// Size of the box in which curves are drawn before they are stretched.
 const BOX: f64 = 1000.0;
 /// Buckets along the level axis, of each of which the extremes are drawn.
@@ -22,52 +24,61 @@ const TURN_PARTS_DEG: [f64; 10] = [1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 90.0, 
 
 /// A range of values with marks at round ones.
 #[derive(Clone, Debug)]
-pub(super) struct Axis {
-    pub(super) min: f64,
-    pub(super) max: f64,
+pub(crate) struct Axis {
+    pub(crate) min: f64,
+    pub(crate) max: f64,
     /// Values that carry a mark, and what it says.
-    pub(super) marks: Vec<(f64, String)>,
+    pub(crate) marks: Vec<(f64, String)>,
     /// Larger values stand lower: depth.
-    pub(super) downwards: bool,
+    pub(crate) downwards: bool,
 }
 
 /// A curve of a named style; it breaks where a value is not finite.
 #[derive(Clone, Debug)]
-pub(super) struct Curve {
-    pub(super) class: &'static str,
-    pub(super) points: Vec<[f64; 2]>,
+pub(crate) struct Curve {
+    pub(crate) class: &'static str,
+    pub(crate) points: Vec<[f64; 2]>,
 }
 
 /// A stretch of the level axis in a named style.
 #[derive(Clone, Debug)]
-pub(super) struct Band {
-    pub(super) class: &'static str,
-    pub(super) from: f64,
-    pub(super) to: f64,
+pub(crate) struct Band {
+    pub(crate) class: &'static str,
+    pub(crate) from: f64,
+    pub(crate) to: f64,
 }
 
 /// A place in a named style.
 #[derive(Clone, Debug)]
-pub(super) struct Spot {
-    pub(super) class: &'static str,
-    pub(super) at: [f64; 2],
+pub(crate) struct Spot {
+    pub(crate) class: &'static str,
+    pub(crate) at: [f64; 2],
+    pub(crate) shape: Shape,
+}
+
+/// What stands at a place.
+#[derive(Clone, Debug)]
+pub(crate) enum Shape {
+    Circle,
+    Square,
+    Words(String),
 }
 
 /// What one plot shows.
 #[derive(Clone, Debug)]
-pub(super) struct Plot {
-    pub(super) level: Axis,
-    pub(super) upright: Axis,
-    pub(super) bands: Vec<Band>,
+pub(crate) struct Plot {
+    pub(crate) level: Axis,
+    pub(crate) upright: Axis,
+    pub(crate) bands: Vec<Band>,
     /// Filled down to the level axis, the hindmost first.
-    pub(super) areas: Vec<Curve>,
-    pub(super) curves: Vec<Curve>,
-    pub(super) spots: Vec<Spot>,
+    pub(crate) areas: Vec<Curve>,
+    pub(crate) curves: Vec<Curve>,
+    pub(crate) spots: Vec<Spot>,
 }
 
 impl Axis {
     /// From the least to the greatest value with some room around; about `count` marks.
-    pub(super) fn around(values: impl Iterator<Item = f64>, least_width: f64, count: f64) -> Self {
+    pub(crate) fn around(values: impl Iterator<Item = f64>, least_width: f64, count: f64) -> Self {
         let (min, max) = extent(values);
         let width = (max - min).max(least_width);
         let middle = (min + max) / 2.0;
@@ -76,13 +87,13 @@ impl Axis {
     }
 
     /// From zero to the greatest value with some room above; about `count` marks.
-    pub(super) fn from_zero(values: impl Iterator<Item = f64>, least_width: f64, count: f64) -> Self {
+    pub(crate) fn from_zero(values: impl Iterator<Item = f64>, least_width: f64, count: f64) -> Self {
         let (_, max) = extent(values);
         Self::exactly(0.0, (1.0 + ROOM) * max.max(least_width), count)
     }
 
     /// From one value to another, with about `count` marks at round values.
-    pub(super) fn exactly(min: f64, max: f64, count: f64) -> Self {
+    pub(crate) fn exactly(min: f64, max: f64, count: f64) -> Self {
         let step = round_step((max - min) / count);
         let decimals = (-step.log10().floor()).max(0.0) as usize;
         let words = |value: f64| format!("{value:.decimals$}").replace('-', "−");
@@ -91,12 +102,12 @@ impl Axis {
     }
 
     /// The same, larger values lower.
-    pub(super) fn downwards(self) -> Self {
+    pub(crate) fn downwards(self) -> Self {
         Self { downwards: true, ..self }
     }
 
     /// Like [`Axis::around`], for unwrapped directions in degrees: marks at parts of a turn, named 0 to 360.
-    pub(super) fn around_directions(values: impl Iterator<Item = f64>, least_width: f64, count: f64) -> Self {
+    pub(crate) fn around_directions(values: impl Iterator<Item = f64>, least_width: f64, count: f64) -> Self {
         let Self { min, max, .. } = Self::around(values, least_width, count);
         let step = TURN_PARTS_DEG.into_iter().find(|step| *step >= (max - min) / count).unwrap_or(360.0);
         let marks = marks(min, max, step).map(|value| (value, format!("{}", value.rem_euclid(360.0)))).collect();
@@ -135,7 +146,7 @@ fn round_step(step: f64) -> f64 {
 
 impl Plot {
     /// The plot as an SVG element without a size of its own.
-    pub(super) fn svg(&self) -> SVG {
+    pub(crate) fn svg(&self) -> SVG {
         let mut curves = SVG::new()
             .set("class", "curves")
             .set("viewBox", format!("0 0 {BOX} {BOX}"))
@@ -195,7 +206,19 @@ impl Plot {
     fn draw_spots(&self, plot: &mut SVG) {
         for spot in &self.spots {
             let (x, y) = (percent(self.level.share(spot.at[0])), percent(self.height(spot.at[1])));
-            plot.append(Circle::new().set("class", spot.class).set("cx", x).set("cy", y).set("r", 5));
+            match &spot.shape {
+                Shape::Circle => {
+                    plot.append(Circle::new().set("class", spot.class).set("cx", x).set("cy", y).set("r", 5))
+                }
+                Shape::Square => {
+                    let square = Rectangle::new().set("class", spot.class).set("x", x).set("y", y);
+                    plot.append(square.set("width", 9).set("height", 9).set("transform", "translate(-4.5 -4.5)"));
+                }
+                Shape::Words(words) => {
+                    let text = Text::new(words.clone()).set("class", spot.class).set("text-anchor", "middle");
+                    plot.append(text.set("x", x).set("y", y).set("dy", "0.33em"));
+                }
+            }
         }
     }
 

@@ -1,0 +1,107 @@
+//! The figures and tables of Fan & Woolsey (2013), drawn anew and compared with what was printed.
+
+pub mod comparison;
+pub mod loci;
+pub mod performance;
+pub mod tables;
+pub mod turning;
+
+use std::{fs, io::Write, path::Path};
+
+use maud::{DOCTYPE, PreEscaped, html};
+
+use crate::{chart::Figure, vehicle::Vehicle, whole_file};
+use comparison::{Row, Trend};
+
+/// The vehicle whose tables the paper prints.
+pub const VEHICLE: &str = "slocum-paper";
+
+/// What no table and no curve says.
+const REMARKS: [&str; 6] = [
+    "Table 2 was computed with φ̇ = p. Equation (2) says φ̇ = p + r tanθ; both are shown, and the second is what the other commands compute.",
+    "The printed trim, γ = −35°, is called maximum horizontal speed. Of this polar that is exactly −35.66°; −35° is near its limit of −35.26° for small K·C_D0.",
+    "52 kg do not follow from the printed geometry: a cylinder with l = 1.5 m and f = 7 displaces 54.1 kg, and the tables need 50 kg.",
+    "At γ = −35° the turn reverses at C_lβ ≈ −0.73: the linear system is singular there, so a sweep from −0.8 crosses a pole. It is marked, not smoothed.",
+    "The fin's and the wing's place and shape are not printed. They are chosen (see the vehicle file), and the starting points of Figs 11 to 14 depend on them.",
+    "Curves can be compared with the paper's description only: the printed figures carry no numbers but the ones in the table above.",
+];
+
+/// Everything that was drawn and compared.
+#[derive(Clone, Debug)]
+pub struct Reproduction {
+    /// Figures by their file names.
+    pub figures: Vec<(String, Figure)>,
+    /// Printed values beside ours.
+    pub rows: Vec<Row>,
+    /// Stated trends, and what was found.
+    pub trends: Vec<Trend>,
+}
+
+/// Draws and compares everything.
+///
+/// # Errors
+/// One line that says which study the vehicle does not allow.
+pub fn reproduce(vehicle: &Vehicle) -> Result<Reproduction, String> {
+    let (mut figures, mut rows, mut trends) = performance::reproduce(vehicle)?;
+    let (turning, turning_trends) = turning::reproduce(vehicle)?;
+    let (loci, loci_trends) = loci::reproduce(vehicle)?;
+    figures.push(("fig11".to_owned(), turning));
+    figures.extend(loci);
+    rows.extend(tables::compare(vehicle)?);
+    trends.extend(turning_trends.into_iter().chain(loci_trends));
+    Ok(Reproduction { figures, rows, trends })
+}
+
+impl Reproduction {
+    /// Figures as SVG with their data as CSV, and the comparison as Markdown and as one page, into a folder.
+    ///
+    /// # Errors
+    /// One line that names the file that could not be written.
+    pub fn write(&self, folder: &Path) -> Result<(), String> {
+        fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+        for (name, figure) in &self.figures {
+            whole_file::write(&folder.join(format!("{name}.svg")), |file| writeln!(file, "{}", figure.svg()))?;
+            whole_file::write(&folder.join(format!("{name}.csv")), |file| figure.write_csv(file))?;
+        }
+        whole_file::write(&folder.join("comparison.md"), |file| write!(file, "{}", self.markdown()))?;
+        whole_file::write(&folder.join("comparison.html"), |file| writeln!(file, "{}", self.page()))
+    }
+
+    fn markdown(&self) -> String {
+        let remarks: Vec<String> = REMARKS.iter().map(|remark| format!("* {remark}")).collect();
+        let figures: Vec<String> =
+            self.figures.iter().map(|(name, figure)| format!("![{}]({name}.svg)", figure.title)).collect();
+        let parts = [
+            comparison::markdown(&self.rows, &self.trends),
+            "## What the paper leaves open".to_owned(),
+            remarks.join("\n"),
+            "## Figures".to_owned(),
+            figures.join("\n\n"),
+            String::new(),
+        ];
+        parts.join("\n\n")
+    }
+
+    fn page(&self) -> String {
+        let page = html! {
+            (DOCTYPE)
+            html lang="en" {
+                head {
+                    meta charset="utf-8";
+                    meta name="viewport" content="width=device-width, initial-scale=1";
+                    title { "Fan & Woolsey (2013), side by side" }
+                    style { (PreEscaped(include_str!("page.css"))) }
+                }
+                body {
+                    h1 { "Fan & Woolsey (2013), side by side" }
+                    (comparison::tables(&self.rows, &self.trends))
+                    h2 { "What the paper leaves open" }
+                    ul { @for remark in REMARKS { li { (remark) } } }
+                    h2 { "Figures" }
+                    @for (_, figure) in &self.figures { div.figure { (PreEscaped(figure.svg())) } }
+                }
+            }
+        };
+        page.into_string()
+    }
+}

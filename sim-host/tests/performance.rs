@@ -9,7 +9,8 @@ use sim_host::{
     flight::{FlyingVehicle, TICK_S, fly},
     mission_file::MissionFile,
     ocean::Ocean,
-    performance::{Account, Endurance, Hold, Polar, Sizing, Yo, figures},
+    paper::performance::VARIED,
+    performance::{Account, Endurance, Hold, Polar, Sizing, Yo},
     plant::rotation_from_quaternion,
     real::Real,
     table::{Envelope, generate},
@@ -165,7 +166,7 @@ fn between_laminar_and_turbulent_a_lung_gives_the_critical_speed() {
 #[test]
 fn a_hull_held_at_52_kg_displaces_52_kg() {
     let shape = Shape::of(&slocum());
-    for (parameter, values) in figures::VARIED {
+    for (parameter, values) in VARIED {
         for value in values {
             let mut held = Hold::Displacement(52.0).with(&shape, parameter, value, 1000.0);
             near(1000.0 * held.hull.volume_m3(), 52.0, 1e-12);
@@ -294,36 +295,5 @@ fn every_loss_costs_range() {
         assert!(realistic.energy.pump_j > answer.ideal.dive_energy_j);
         assert!(realistic.pump_efficiency < 1.0);
         assert!(realistic.account.dive_duration_s > answer.ideal.dive_duration_s);
-    }
-}
-
-#[test]
-fn figures_show_what_the_equations_give() {
-    let vehicle = slocum();
-    let sizing = Sizing { study: Study { anchoring: Anchoring::Unanchored, ..Study::new(&vehicle) } };
-    let [slope, angle] = figures::max_horizontal_speed();
-    near(slope.curves[0].points[0][1], 0.5_f64.sqrt(), 1e-12);
-    near(angle.curves[0].points[0][1], 35.264_389_682_754_65, 1e-12);
-    assert!(angle.curves[0].points.windows(2).all(|pair| pair[1][1] > pair[0][1]), "steeper with drag");
-    let ocean = Ocean::still(&vehicle.water);
-    let mut panels = vec![figures::polar(&Polar::from(&vehicle.hydrodynamics)), figures::neutral_displacement(&sizing)];
-    // (π/4) ρ l³/f² = 54.1 kg at 1.5 m, the middle of the figure.
-    near(panels[1].curves[0].points[80][1], PI / 4.0 * 1000.0 * 1.5_f64.powi(3) / 49.0, 1e-12);
-    for hold in [Hold::Geometry, Hold::Displacement(52.0)] {
-        panels.extend(figures::lung_capacity(&sizing, hold));
-        let best = figures::lift_to_drag(&sizing, hold);
-        for panel in &best {
-            // The paper's steps: L/D rises with speed, but where a flow turns turbulent.
-            let steps = panel.curves[2].points.windows(2).filter(|pair| pair[1][1] < pair[0][1]).count();
-            assert_eq!(steps, 3, "{}: hull, wing and fin", panel.number);
-        }
-        panels.extend(best);
-    }
-    panels.extend(figures::endurance(&sizing, &Shape::of(&vehicle), 540e3, &[50.0, 200.0], &ocean));
-    for panel in &panels {
-        for curve in &panel.curves {
-            assert!(!curve.points.is_empty(), "{} {}", panel.number, curve.label);
-            assert!(curve.points.iter().flatten().all(|x| x.is_finite()), "{} {}", panel.number, curve.label);
-        }
     }
 }

@@ -2,7 +2,8 @@
 
 use sim_host::{
     coefficients::{Anchoring, Parameter, Shape, Study},
-    performance::{Hold, Size, Sizing, figures::VARIED},
+    paper::performance::VARIED,
+    performance::{Hold, Size, Sizing},
     vehicle::Vehicle,
 };
 

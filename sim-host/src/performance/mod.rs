@@ -2,11 +2,9 @@
 //!
 //! [`Polar`] and [`Sizing`] are the paper's closed forms. [`Endurance`] sets the paper's ideal account of a yo beside a realistic
 //! one of the same vehicle: water that grows denser, a hull that gives way, a pump with losses, inflections, a hotel load.
-//! [`figures`] gives the curves of the paper's Figs. 5 to 10 as plain data.
 
 mod dive;
 mod endurance;
-pub mod figures;
 mod polar;
 mod size;
 

@@ -5,7 +5,8 @@
 //!
 //! # What is not there yet
 //! No driver for pressure, attitude, position, altitude, leak, vacuum, charge or modem: in flight those measurements stay
-//! `None`, and the autopilot does not leave the surface; what is not measured aborts nothing. Simulated measurements come over the link, with the bench jumper fitted.
+//! `None`, and the autopilot does not leave the surface; what is not measured aborts nothing. Simulated measurements come
+//! over the link, with the bench jumper fitted.
 //!
 //! No watchdog and no drop weight: after a panic the actuators are safe, and stay so until somebody resets the board.
 //!

@@ -81,7 +81,7 @@ mod tests {
             assert_eq!(read(TRUE, roll_deg, pitch_deg, 80.0).is_some(), echoes, "pitch {pitch_deg}°");
         }
         assert_eq!(read(TRUE, 0.0, 26.0, 80.0), None, "a climb at 26° looks 52° aside");
-        // At the mount's pitch the beam is straight down: roll about the hull's axis, cos 26° of it about the beam's horizon.
+        // Roll turns the beam aside by about cos 26° of it: 13.5° of 15°, 22.5° of 25°.
         assert_eq!((read(TRUE, 15.0, -26.0, 80.0).is_some(), read(TRUE, 25.0, -26.0, 80.0).is_some()), (true, false));
         // 10° off, 99 m of height are 100.5 m of way.
         assert_eq!((read(TRUE, 0.0, -36.0, 21.0), read(TRUE, 0.0, -26.0, 21.0).is_some()), (None, true));

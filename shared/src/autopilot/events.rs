@@ -1,0 +1,64 @@
+//! What ends a phase.
+
+use super::{AFLOAT_DEPTH_M, Autopilot};
+use crate::{
+    device::{MM_PER_M, Measurements, TICK_HZ},
+    math,
+    mission::{Event, Phase},
+    streak::Streak,
+};
+
+/// Vertical speed below which the vehicle counts as at rest at the surface, m/s.
+const AFLOAT_RATE_M_S: f32 = 0.1;
+
+impl Autopilot<'_> {
+    /// What happened that may end the phase.
+    pub(super) fn event(&mut self, tick: u32, measurements: &Measurements) -> Option<Event> {
+        let near_bottom = self.is_near_bottom(measurements);
+        let (config, navigator, executive) = (&self.config, &self.state.navigator, &self.state.executive);
+        let net_mass_kg = config.table.vehicle().net_mass_kg(measurements.vbd_ul);
+        let ahead_mm = math::round_to_i32((navigator.depth_m + self.reversal_lead_m()) * MM_PER_M);
+        let (met, event) = match executive.phase {
+            Phase::Surface => (self.is_ready_to_dive(tick), Event::ReadyToDive),
+            Phase::Dive if near_bottom => (true, Event::NearBottom),
+            Phase::Dive => (ahead_mm >= config.mission.dive_to_mm, Event::DeepEnough),
+            Phase::Apogee => (net_mass_kg <= 0.5 * config.climb.net_mass_kg, Event::Light),
+            Phase::Climb if executive.yo < config.mission.yos => {
+                (ahead_mm <= config.mission.climb_to_mm, Event::TopReached)
+            }
+            Phase::Climb => (ahead_mm <= config.mission.climb_to_mm, Event::LastTopReached),
+            Phase::Crest => (net_mass_kg >= 0.5 * config.dive.net_mass_kg, Event::Heavy),
+            Phase::Surfacing => (
+                navigator.depth_m < AFLOAT_DEPTH_M && math::abs(navigator.depth_rate_m_s) < AFLOAT_RATE_M_S,
+                Event::Afloat,
+            ),
+            Phase::Complete | Phase::Recovery => (false, Event::Abort),
+        };
+        met.then_some(event)
+    }
+
+    /// Depth that will be gained before a reversal that starts now takes effect, m.
+    fn reversal_lead_m(&self) -> f32 {
+        self.state.navigator.depth_rate_m_s * self.config.reversal_s(&self.state.executive.phase)
+    }
+
+    /// Whether a dive that turns now comes as near to the sea floor as it may; one false echo does not say so.
+    fn is_near_bottom(&mut self, measurements: &Measurements) -> bool {
+        let least_mm = self.config.mission.altitude_mm;
+        if least_mm == 0 || self.state.executive.phase != Phase::Dive {
+            self.state.bottom = Streak::default();
+            return false;
+        }
+        let lead_mm = math::round_to_i32(self.reversal_lead_m() * MM_PER_M);
+        let near = measurements.altitude_mm.map(|height_mm| height_mm.saturating_sub(lead_mm) <= least_mm);
+        self.state.bottom.take(near, self.config.altitude_samples)
+    }
+
+    fn is_ready_to_dive(&self, tick: u32) -> bool {
+        let navigator = &self.state.navigator;
+        tick >= u32::from(self.config.mission.surface_time_s).saturating_mul(TICK_HZ)
+            && navigator.has_position()
+            && navigator.depth_tick == Some(tick)
+            && navigator.attitude_tick == Some(tick)
+    }
+}

@@ -27,6 +27,9 @@
 //! | cross flow: attached law below the stall, drag of the plan view across, never gives energy | `tests/crossflow.rs` | equal bits; 1e-12; sign |
 //! | the paper's trim, Tables 1 and 2, eqs (14)–(16) = 3×3 system = exact helix | `tests/trim.rs`, `tests/stability.rs` | printed digits; 1e-9 |
 //! | electrical energy of the pump over p ΔV | `tests/devices.rs` | fielded efficiencies; 1e-9 for p ΔV itself |
+//! | every abort: its fault is noticed in time, and the vehicle comes back | `tests/aborts.rs` | when the fault can be seen |
+//! | a dive turns above a sloping floor by the altimeter | `tests/ocean.rs` | 3 m of the height asked for |
+//! | pressure in the hull by the gas law, echoes by beam and range | `flight::sensors` | 1e-12 relative; whole steps |
 //! | linearisation by dual numbers against central differences | `tests/stability.rs` | 1e-7 relative: the differences' own error |
 //! | geometry to coefficients: spheroid, strips, thin plates, scaling; exact derivatives | `tests/coefficients.rs` | 1e-9: quadrature; 1e-7: differences |
 //! | polar, eqs (10)–(13), (17) and the ideal range, against searches and as printed | `tests/performance.rs` | 1e-9; 1e-12: rounding |

@@ -57,7 +57,7 @@ pub fn vary(
     let modes_at = |value: f64| -> Result<Modes, String> {
         let vehicle = varied.vehicle(study, value, lift_coefficient)?;
         let glide = glide(&vehicle, condition, scale)?;
-        Ok(modes(&vehicle, &glide, roll))
+        modes(&vehicle, &glide, roll)
     };
     let modes_at = |value| modes_at(value).map_err(|error| format!("{varied} = {value}: {error}"));
     Ok(Loci {

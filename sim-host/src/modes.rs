@@ -1,6 +1,8 @@
-//! Small motions about a wings-level glide: exact linearisation and its eigenvalues (section 9 of the equations).
+//! Small motions about a straight glide: exact linearisation and its eigenvalues (section 9 of the equations).
 //!
-//! The moving mass is locked. `longitudinal` has the states (u, w, q, θ), `lateral` (v, p, r, φ), SI.
+//! The moving mass is locked. `longitudinal` has the states (u, w, q, θ), `lateral` (v, p, r, φ), SI. They are the two blocks on
+//! the diagonal of one 8×8 matrix. For a vehicle that is not symmetric the other two blocks do not vanish: leaving them out is
+//! then an approximation, whose size is told, beside the eigenvalues of the whole.
 
 use nalgebra::{Complex, Const, Matrix4, SMatrix, Vector3, Vector4};
 use num_dual::DualSVec64;
@@ -38,6 +40,10 @@ pub struct Modes {
     pub lateral: ModeSet,
     /// Largest entry that couples the two sets, over the largest of all: 0 for a symmetric vehicle.
     pub coupling: f64,
+    /// Eigenvalues of all eight states together, ordered as those of the sets; none if the sets are not coupled.
+    pub coupled_eigenvalues: Option<[[f64; 2]; 8]>,
+    /// Those of the glide, and the coupling.
+    pub warnings: Vec<String>,
 }
 
 /// Linear dynamics of four states.
@@ -56,14 +62,28 @@ pub struct ModeSet {
 }
 
 /// The modes of a glide.
-#[must_use]
-pub fn modes(vehicle: &Vehicle, glide: &Glide, roll: RollKinematics) -> Modes {
+///
+/// # Errors
+/// One line if numbers overflow: a speed that no vehicle has.
+pub fn modes(vehicle: &Vehicle, glide: &Glide, roll: RollKinematics) -> Result<Modes, String> {
     let jacobian = jacobian(vehicle, glide, roll);
+    if jacobian.iter().any(|entry| !entry.is_finite()) {
+        return Err(format!("{}: no finite linearisation at {:e} m/s", vehicle.name, glide.speed_m_s));
+    }
     let [longitudinal, lateral] = [0, 4].map(|first| jacobian.fixed_view::<4, 4>(first, first).into_owned());
     let coupled = jacobian.fixed_view::<4, 4>(0, 4).amax().max(jacobian.fixed_view::<4, 4>(4, 0).amax());
+    let coupling = coupled / jacobian.amax();
+    let coupled_eigenvalues = (coupling > ROUNDING).then(|| ordered(jacobian.complex_eigenvalues().into()).map(pair));
+    let mut warnings = glide.warnings.clone();
+    if coupled_eigenvalues.is_some() {
+        warnings.push(format!(
+            "longitudinal and lateral motion are coupled, by {coupling:.2e} of the largest entry: the modes leave it out, \
+             `coupled_eigenvalues` has it"
+        ));
+    }
     let (v0, length) = (vehicle.nominal_speed_m_s, TABLE_LENGTH_M);
     let rate = length / v0;
-    Modes {
+    Ok(Modes {
         longitudinal: mode_set(
             ["u", "w", "q", "theta"],
             &longitudinal,
@@ -71,8 +91,10 @@ pub fn modes(vehicle: &Vehicle, glide: &Glide, roll: RollKinematics) -> Modes {
             longitudinal_name,
         ),
         lateral: mode_set(["v", "p", "r", "phi"], &lateral, [1.0 / v0, rate, rate, 1.0], lateral_name),
-        coupling: coupled / jacobian.amax(),
-    }
+        coupling,
+        coupled_eigenvalues,
+        warnings,
+    })
 }
 
 /// Derivative of (u̇, ẇ, q̇, θ̇, v̇, ṗ, ṙ, φ̇) by (u, w, q, θ, v, p, r, φ).
@@ -80,15 +102,16 @@ fn jacobian(vehicle: &Vehicle, glide: &Glide, roll: RollKinematics) -> SMatrix<f
     let plant = Plant::<Dual>::new(vehicle);
     let trim = glide.state();
     let along = |value: f64, place: usize| Dual::from_re(value).derivative(place);
+    let velocity = trim.velocity_m_s;
     let [u, w, q, v, p, r] =
-        [(trim.velocity_m_s.x, 0), (trim.velocity_m_s.z, 1), (0.0, 2), (0.0, 4), (0.0, 5), (0.0, 6)]
-            .map(|(x, i)| along(x, i));
-    let (theta, phi) = (along(glide.pitch_rad, 3), along(0.0, 7));
+        [(velocity.x, 0), (velocity.z, 1), (0.0, 2), (velocity.y, 4), (0.0, 5), (0.0, 6)].map(|(x, i)| along(x, i));
+    let (theta, phi) = (along(glide.pitch_rad, 3), along(glide.phi_rad, 7));
     let state = State {
         quaternion: quaternion_from_euler(&Vector3::new(phi, theta, Dual::constant(0.0))),
         velocity_m_s: Vector3::new(u, v, w),
         rate_rad_s: Vector3::new(p, q, r),
         r_px_m: Dual::constant(glide.r_px_m),
+        mu_rad: Dual::constant(glide.mu_rad),
         ..State::at_rest(Dual::constant(glide.displaced_volume_m3))
     };
     let rates = plant.derivative_driven(&state, Dual::constant(0.0), &plant.still());
@@ -108,19 +131,13 @@ fn mode_set(
     scales: [f64; 4],
     name: fn(&[f64; 4], bool) -> &'static str,
 ) -> ModeSet {
-    let mut eigenvalues: [Complex<f64>; 4] = matrix.complex_eigenvalues().into();
-    let size = eigenvalues.iter().map(|value| value.norm()).fold(0.0, f64::max);
-    // A pair has one real part, whatever rounding says.
-    eigenvalues.sort_by(|a, b| {
-        let nearly_equal = (a.re - b.re).abs() < ROUNDING * size;
-        if nearly_equal { b.im.total_cmp(&a.im) } else { a.re.total_cmp(&b.re) }
-    });
+    let eigenvalues = ordered(matrix.complex_eigenvalues().into());
+    let size = largest(&eigenvalues);
     let eigenvectors = eigenvalues.map(|value| eigenvector(matrix, value, scales));
     let names = std::array::from_fn(|i| {
         let sizes: [f64; 4] = eigenvectors[i].map(|entry| entry.norm());
         name(&sizes, eigenvalues[i].im.abs() > ROUNDING * size)
     });
-    let pair = |value: Complex<f64>| [value.re, value.im];
     ModeSet {
         states,
         matrix: matrix.transpose().into(),
@@ -128,6 +145,25 @@ fn mode_set(
         eigenvectors: eigenvectors.map(|vector| vector.map(pair)),
         names,
     }
+}
+
+/// By increasing real part, the positive imaginary part of a pair first.
+fn ordered<const N: usize>(mut eigenvalues: [Complex<f64>; N]) -> [Complex<f64>; N] {
+    let size = largest(&eigenvalues);
+    // A pair has one real part, whatever rounding says.
+    eigenvalues.sort_by(|a, b| {
+        let nearly_equal = (a.re - b.re).abs() < ROUNDING * size;
+        if nearly_equal { b.im.total_cmp(&a.im) } else { a.re.total_cmp(&b.re) }
+    });
+    eigenvalues
+}
+
+fn largest(eigenvalues: &[Complex<f64>]) -> f64 {
+    eigenvalues.iter().map(|value| value.norm()).fold(0.0, f64::max)
+}
+
+fn pair(value: Complex<f64>) -> [f64; 2] {
+    [value.re, value.im]
 }
 
 /// The direction that A − λ takes to zero: its last right singular vector, scaled, the largest entry 1.

@@ -7,7 +7,7 @@ use shared::{
 
 use crate::{
     helix::{Helix, HelixSolver, Slope, Turn},
-    trim::{Condition, Scale, glide},
+    trim::{Condition, Scale, wings_level},
     vehicle::Vehicle,
 };
 
@@ -203,7 +203,7 @@ fn level_helix(
     path_angle_rad: f64,
     net_mass_kg: f64,
 ) -> Result<Helix, String> {
-    let level = glide(vehicle, Condition::PathAngle(path_angle_rad), Scale::NetMass(net_mass_kg))?;
+    let level = wings_level(vehicle, Condition::PathAngle(path_angle_rad), Scale::NetMass(net_mass_kg))?;
     solver.solve(&Helix::from(&level), Slope::PathAngle(path_angle_rad), Turn::Mu(0.0))
 }
 

@@ -1,4 +1,4 @@
-//! Steady turns about a wings-level glide: to first order in three ways, exactly, and as far as they go.
+//! Steady turns about a straight glide: to first order in three ways, exactly, and as far as they go.
 //!
 //! Pitch and net mass are held at the glide's; the mass's rotation μ makes the turn (section 8 of the equations).
 
@@ -31,7 +31,7 @@ pub struct Sensitivity {
 /// The three ways to the first order.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Sensitivities {
-    /// The 3×3 linear system; none for a vehicle without left–right symmetry or with moments in the current frame.
+    /// The 3×3 linear system; none where its assumptions do not hold: left–right symmetry, moments in the body frame.
     pub linear: Option<Sensitivity>,
     /// Equations (14)–(16) of the paper; none where its assumptions do not hold.
     pub closed_form: Option<Sensitivity>,
@@ -42,7 +42,7 @@ pub struct Sensitivities {
 /// How fast it can turn one way.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Authority {
-    /// Largest turn rate on the branch that starts at μ = 0, rad/s, right positive.
+    /// Largest turn rate on the branch that starts at the straight glide, rad/s, right positive.
     pub largest_turn_rate_rad_s: f64,
     /// Where it is reached, rad: beyond this μ the response reverses, or steady turns end.
     pub mu_rad: f64,
@@ -61,31 +61,31 @@ pub struct Authorities {
     pub left: Authority,
 }
 
-/// A branch of steady turns that starts at a wings-level glide.
+/// A branch of steady turns that starts at a straight glide.
 #[derive(Clone, Debug)]
 pub struct Turns<'a> {
     vehicle: &'a Vehicle,
     solver: HelixSolver,
     slope: Slope,
-    level: Helix,
+    straight: Helix,
 }
 
 impl<'a> Turns<'a> {
     /// The turns about a glide.
     ///
     /// # Errors
-    /// One line if the full equations have no helix near the glide (a vehicle that is far from symmetric).
+    /// One line if the full equations have no straight glide there (a vertical one, which no place of the mass balances).
     pub fn new(vehicle: &'a Vehicle, glide: &Glide) -> Result<Self, String> {
         let (solver, slope) = (HelixSolver::new(vehicle), Slope::Pitch(glide.pitch_rad));
-        let level = solver.solve(&Helix::from(glide), slope, Turn::Mu(0.0))?;
-        Ok(Self { vehicle, solver, slope, level })
+        let straight = solver.solve(&Helix::from(glide), slope, Turn::Rate(0.0))?;
+        Ok(Self { vehicle, solver, slope, straight })
     }
 
     /// First order, three ways.
     #[must_use]
     pub fn sensitivities(&self, glide: &Glide) -> Sensitivities {
-        let at_rate = Turn::Rate(self.level.turn_rate_rad_s);
-        let numeric = self.solver.sensitivity(&self.level, self.slope, at_rate);
+        let at_rate = Turn::Rate(self.straight.turn_rate_rad_s);
+        let numeric = self.solver.sensitivity(&self.straight, self.slope, at_rate);
         Sensitivities {
             linear: linear(self.vehicle, glide),
             closed_form: closed_form(self.vehicle, glide),
@@ -96,25 +96,33 @@ impl<'a> Turns<'a> {
     /// The turn at a rate, rad/s, right positive.
     ///
     /// # Errors
-    /// One line that names the largest reachable rate.
+    /// One line that names the largest reachable rate, and the helix that has it.
     pub fn at_rate(&self, turn_rate_rad_s: f64) -> Result<Helix, String> {
-        let more = turn_rate_rad_s - self.level.turn_rate_rad_s;
+        if !turn_rate_rad_s.is_finite() {
+            return Err(format!("turn rate {turn_rate_rad_s} rad/s: must be a finite number"));
+        }
+        let more = turn_rate_rad_s - self.straight.turn_rate_rad_s;
         let way = more.signum() * self.sense();
-        let mut near = self.level;
+        let mut near = self.straight;
         for helix in self.walk(way) {
             if (helix.turn_rate_rad_s - turn_rate_rad_s) * more >= 0.0 {
                 return self.solver.solve(&near, self.slope, Turn::Rate(turn_rate_rad_s));
             }
             near = helix;
         }
-        let end = self.authority(way).largest_turn_rate_rad_s;
-        if (end - turn_rate_rad_s) * more >= 0.0 {
+        let (end, _) = self.reversal(&near, way);
+        if (end.turn_rate_rad_s - turn_rate_rad_s) * more >= 0.0 {
             // Between the walk's last step and the very end.
             return self.solver.solve(&near, self.slope, Turn::Rate(turn_rate_rad_s));
         }
         Err(format!(
-            "turn rate {turn_rate_rad_s} rad/s: the largest that {} reaches at this pitch and net mass is {end:.6} rad/s",
-            self.vehicle.name
+            "turn rate {turn_rate_rad_s} rad/s: the largest that {} reaches at this pitch and net mass is {:.6} rad/s, at mu {:.2}°, \
+             speed {:.4} m/s, roll {:.2}°",
+            self.vehicle.name,
+            end.turn_rate_rad_s,
+            end.mu_rad.to_degrees(),
+            end.speed_m_s,
+            end.roll_rad.to_degrees()
         ))
     }
 
@@ -128,17 +136,18 @@ impl<'a> Turns<'a> {
     /// Sign of the μ that turns right.
     #[must_use]
     pub fn sense(&self) -> f64 {
-        self.slope_of_rate(&self.level).signum()
+        self.slope_of_rate(&self.straight).signum()
     }
 
     /// Turns at growing |μ| on one side, as long as the response keeps its sense and the search converges.
     fn walk(&self, way: f64) -> impl Iterator<Item = Helix> + '_ {
         let sense = self.sense();
-        let mut helix = self.level;
+        let mut helix = self.straight;
         std::iter::from_fn(move || {
             let mu_rad = helix.mu_rad + way * STEP_RAD;
-            let next = self.solver.solve(&helix, self.slope, Turn::Mu(mu_rad)).ok()?;
-            let goes_on = mu_rad.abs() <= FARTHEST_RAD && self.slope_of_rate(&next) * sense > 0.0;
+            let next = self.solver.step(&helix, self.slope, Turn::Mu(mu_rad))?;
+            let goes_on =
+                (mu_rad - self.straight.mu_rad).abs() <= FARTHEST_RAD && self.slope_of_rate(&next) * sense > 0.0;
             helix = next;
             goes_on.then_some(next)
         })
@@ -147,7 +156,7 @@ impl<'a> Turns<'a> {
     fn authority(&self, way: f64) -> Authority {
         let travel_rad = self.vehicle.moving_mass.roll_deg.map(f64::to_radians);
         let inside = |helix: &Helix| (travel_rad[0]..=travel_rad[1]).contains(&helix.mu_rad);
-        let (mut last, mut within) = (self.level, self.level);
+        let (mut last, mut within) = (self.straight, self.straight);
         for helix in self.walk(way) {
             if inside(&helix) {
                 within = helix;
@@ -157,7 +166,7 @@ impl<'a> Turns<'a> {
         let (end, reverses) = self.reversal(&last, way);
         if inside(&end) {
             within = end;
-        } else if let Ok(stop) = self.solver.solve(&within, self.slope, Turn::Mu(travel_rad[usize::from(way > 0.0)])) {
+        } else if let Some(stop) = self.solver.step(&within, self.slope, Turn::Mu(travel_rad[usize::from(way > 0.0)])) {
             within = stop;
         }
         Authority {
@@ -175,13 +184,13 @@ impl<'a> Turns<'a> {
         let mut reverses = false;
         for _ in 0..BISECTIONS {
             let middle = 0.5 * (low + high);
-            match self.solver.solve(&near, self.slope, Turn::Mu(last.mu_rad + way * middle)) {
-                Ok(helix) if self.slope_of_rate(&helix) * sense > 0.0 => {
+            match self.solver.step(&near, self.slope, Turn::Mu(last.mu_rad + way * middle)) {
+                Some(helix) if self.slope_of_rate(&helix) * sense > 0.0 => {
                     near = helix;
                     low = middle;
                 }
                 beyond => {
-                    reverses |= beyond.is_ok();
+                    reverses |= beyond.is_some();
                     high = middle;
                 }
             }
@@ -195,8 +204,9 @@ impl<'a> Turns<'a> {
     }
 }
 
-/// Whether the vehicle is its own mirror image, with nothing but diagonal added mass and the couplings M_ẇ and N_v̇.
-fn is_plain(vehicle: &Vehicle) -> bool {
+/// Whether the vehicle is its own mirror image, with nothing but diagonal added mass and the couplings M_ẇ and N_v̇, its variable
+/// volume at the centre of buoyancy and its flow attached.
+fn is_plain(vehicle: &Vehicle, glide: &Glide) -> bool {
     let added = &vehicle.added_mass;
     let mut coupling = added.coupling_kg_m;
     coupling[(1, 2)] = 0.0;
@@ -206,11 +216,13 @@ fn is_plain(vehicle: &Vehicle) -> bool {
         && added.mass_kg == diagonal
         && vehicle.body.centre_of_mass_m.y == 0.0
         && vehicle.hydrodynamics.moment_frame == MomentFrame::Body
+        && vehicle.buoyancy.as_ref().is_none_or(|buoyancy| !buoyancy.acts_at_station)
+        && vehicle.crossflow.as_ref().is_none_or(|crossflow| glide.alpha_rad.abs() <= crossflow.stall_deg.to_radians())
 }
 
 /// The 3×3 system A (β, φ, μ)ᵀ + b Ω = 0 of section 8.
 fn linear(vehicle: &Vehicle, glide: &Glide) -> Option<Sensitivity> {
-    if !is_plain(vehicle) {
+    if !is_plain(vehicle, glide) {
         return None;
     }
     let (h, water, mass, body) = (&vehicle.hydrodynamics, &vehicle.water, &vehicle.moving_mass, &vehicle.body);
@@ -253,7 +265,7 @@ fn linear(vehicle: &Vehicle, glide: &Glide) -> Option<Sensitivity> {
 fn closed_form(vehicle: &Vehicle, glide: &Glide) -> Option<Sensitivity> {
     let h = &vehicle.hydrodynamics;
     let dropped = [h.c_l_zero, h.c_y_p, h.c_y_r, h.c_roll_r, h.c_n_p, vehicle.body.centre_of_mass_m.x];
-    (is_plain(vehicle) && dropped.iter().all(|value| *value == 0.0)).then(|| equations_14_to_16(vehicle, glide))
+    (is_plain(vehicle, glide) && dropped.iter().all(|value| *value == 0.0)).then(|| equations_14_to_16(vehicle, glide))
 }
 
 /// Equations (14)–(16), with the displaced mass for m in (14) and (16) and the coefficients brought to the paper's normalisation.

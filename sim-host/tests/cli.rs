@@ -50,6 +50,76 @@ fn a_limit_of_an_actuator_is_a_warning_on_stderr_not_an_error() {
 }
 
 #[test]
+fn a_lopsided_vehicle_keeps_the_contract_of_every_analysis() {
+    in_folder(|folder| {
+        let file = folder.join("lopsided.toml");
+        let text = include_str!("../vehicles/slocum-paper.toml")
+            .replace("[0, 0, 0.0713975]", "[0.005, 0.004, 0.07]")
+            .replace("[[0, 0, 0], [0, 0, 0], [0, 0, 0]]", "[[0.5, -1, 0.8], [1.2, 0.4, -2], [0.7, 3, -0.6]]");
+        fs::write(&file, text).unwrap();
+        let ask = |command: &str, more: &[&str]| {
+            let vehicle = file.to_str().unwrap();
+            json(&glider(
+                &[&[command, vehicle, "--path-angle-deg", "-26", "--net-mass", "0.25", "--json"], more].concat(),
+            ))
+        };
+        let banked = |answer: &Value| {
+            let warnings = answer["warnings"].as_array().unwrap();
+            assert!(warnings.iter().any(|line| line.as_str().unwrap().contains("glides straight with a bank of")));
+        };
+        let trim = ask("trim", &[]);
+        banked(&trim);
+        assert_eq!(trim["net_mass_kg"], 0.25);
+        assert!(["beta_rad", "phi_rad", "mu_rad"].iter().all(|name| trim[name].is_f64()), "{trim}");
+        let turn = ask("turn", &["--turn-rate-rad-s", "0"]);
+        banked(&turn);
+        assert!(turn["sensitivity"]["linear"].is_null() && turn["sensitivity"]["closed_form"].is_null());
+        assert!(turn["sensitivity"]["numeric"]["mu_s"].is_f64() && turn["exact"]["radius_m"].is_null(), "{turn}");
+        assert!((turn["exact"]["mu_rad"].as_f64().unwrap() - trim["mu_rad"].as_f64().unwrap()).abs() < 1e-9);
+        let modes = ask("modes", &[]);
+        banked(&modes);
+        assert!(modes["warnings"].as_array().unwrap().iter().any(|line| line.as_str().unwrap().contains("coupled")));
+        assert_eq!(modes["coupled_eigenvalues"].as_array().unwrap().len(), 8);
+    });
+}
+
+#[test]
+fn what_cannot_be_flown_is_said_with_the_nearest_that_can() {
+    let glide = ["slocum-paper", "--path-angle-deg", "-35"];
+    let ask = |command: &str, more: &[&str]| refusal(&glider(&[&[command], &glide[..], more].concat()));
+    let line = ask("turn", &["--turn-rate-rad-s", "0.1", "--json"]);
+    let start = "error: turn rate 0.1 rad/s: the largest that slocum-paper reaches at this pitch and net mass is 0.00";
+    assert!(line.starts_with(start) && line.contains(" rad/s, at mu -") && line.contains("speed 0."), "{line}");
+    assert_eq!(ask("turn", &["--turn-rate-rad-s", "nan"]), "error: turn rate NaN rad/s: must be a finite number");
+    for command in ["trim", "turn", "modes"] {
+        let line = ask(command, &["--speed", "1e300", "--json"]);
+        assert_eq!(line, "error: speed 1e300 m/s: takes a net mass of inf kg, but slocum-paper has only 50 kg in all");
+    }
+    in_folder(|folder| {
+        let file = folder.join("listing.toml");
+        let text = include_str!("../vehicles/slocum-paper.toml").replace("[0, 0, 0.0713975]", "[0, 0.03, 0.07]");
+        fs::write(&file, text).unwrap();
+        for command in ["trim", "turn", "modes"] {
+            let line = refusal(&glider(&[command, file.to_str().unwrap(), "--path-angle-deg", "-26", "--json"]));
+            let start = "error: slocum-paper: no steady helix with path angle -26.000°, turn rate 0.000000 rad/s, speed 0.7700 m/s: ";
+            assert!(
+                line.starts_with(start) && line.contains(" N is left; the nearest found has path angle -26.000°"),
+                "{line}"
+            );
+            assert!(
+                ["mu ", "speed ", "roll ", "net mass "].iter().all(|name| line.matches(name).count() >= 1),
+                "{line}"
+            );
+        }
+        let table = folder.join("steep.table");
+        let steep = ["--dive-deg", "12", "60", "--mu-deg", "90", "-o", table.to_str().unwrap()];
+        let line = refusal(&glider(&[&["table", "slocum-paper"], &steep[..]].concat()));
+        assert!(line.contains("no steady helix with path angle -") && line.contains("the nearest found has"), "{line}");
+        assert!(!table.exists());
+    });
+}
+
+#[test]
 fn eval_reads_stdin_and_refuses_what_it_does_not_know() {
     let ask = |text: &str| {
         let mut child = Command::new(env!("CARGO_BIN_EXE_glider"))

@@ -72,10 +72,17 @@ fn as_dual(state: &State<f64>, rate: &State<f64>) -> State<Dual> {
     }
 }
 
-/// dE/dt = f_v·v + m_v·ω + u_px ṙ_px + u_μ μ̇ + ρ g z u_b, with dE/dt taken exactly along the motion.
+/// dE/dt = f_v·v + m_v·ω + u_px ṙ_px + u_μ μ̇ + ρ g z u_b, with dE/dt taken exactly along the motion; z is the depth at which
+/// the buoyancy engine works: the centre of buoyancy's, or its station's.
 #[test]
 fn energy_changes_by_the_work_that_is_done() {
-    for vehicle in [Vehicle::load("slocum-paper").unwrap(), lopsided()] {
+    let mut in_the_nose = lopsided();
+    let engine = in_the_nose.buoyancy.as_mut().unwrap();
+    engine.acts_at_station = true;
+    let station_m = engine.position_m;
+    for (vehicle, station_m) in
+        [(Vehicle::load("slocum-paper").unwrap(), 0.0), (lopsided(), 0.0), (in_the_nose, station_m)]
+    {
         let plant = Plant::<f64>::new(&vehicle);
         let exact = Plant::<Dual>::new(&vehicle);
         for (state, input) in random_states(&plant, 200) {
@@ -83,8 +90,9 @@ fn energy_changes_by_the_work_that_is_done() {
             let energy = exact.kinetic_energy_j(&moving) + exact.potential_energy_j(&moving);
             let rate_w = energy.eps.unwrap_generic(nalgebra::Const::<1>, nalgebra::Const::<1>)[0];
             let viscous = plant.viscous_in(&state);
-            let buoyant_w =
-                vehicle.water.density_kg_m3 * vehicle.water.gravity_m_s2 * state.position_m.z * input.u_b_m3_s;
+            let ahead = rotation_from_quaternion(&state.quaternion).column(0) * station_m;
+            let depth_m = state.position_m.z + ahead.z;
+            let buoyant_w = vehicle.water.density_kg_m3 * vehicle.water.gravity_m_s2 * depth_m * input.u_b_m3_s;
             let work_w = viscous.force_n.dot(&state.velocity_m_s)
                 + viscous.moment_nm.dot(&state.rate_rad_s)
                 + input.u_px_n * state.r_px_rate_m_s

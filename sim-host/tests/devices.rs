@@ -1,6 +1,6 @@
 //! Devices that misbehave, in closed loop.
 
-use shared::{autopilot::Autopilot, table::TrimTable};
+use shared::{autopilot::Autopilot, device::Measurements, mission::Phase, table::TrimTable};
 use sim_host::{
     flight::{CompassErrors, Dropout, Faults, FlyingVehicle, Instrument, Outcome, Seep, Summary, fly},
     mission_file::MissionFile,
@@ -133,6 +133,62 @@ fn what_is_not_heard_draws_its_noise_all_the_same() {
         (attitudes(Faults::default()), attitudes(Faults { dropouts: vec![gps], ..Faults::default() }));
     // The mission starts after a minute at the surface; until then it does the same, position or not.
     assert_eq!(sound[..200], silent[..200]);
+}
+
+/// Errors of one instrument, and how often it draws, are its own affair.
+#[test]
+fn a_worse_instrument_makes_no_other_worse() {
+    let flown = |devices: fn(&mut FlyingVehicle<'_>)| {
+        let mut seen = Vec::new();
+        fly_with(4, |_| {}, devices, |tick| seen.push(*tick.measurements));
+        seen
+    };
+    let usual = flown(|_| {});
+    let worse = flown(|flying| {
+        flying.sensor_errors.housekeeping.voltage_noise_v = 0.2;
+        flying.sensor_errors.altimeter.dropout = 0.9;
+    });
+    assert!(usual.iter().zip(&worse).any(|(usual, worse)| usual.battery_mv != worse.battery_mv));
+    let but_voltage = |seen: &[Measurements]| -> Vec<Measurements> {
+        seen.iter().map(|said| Measurements { battery_mv: None, ..*said }).collect()
+    };
+    assert!(but_voltage(&usual) == but_voltage(&worse), "all else to the last bit");
+}
+
+/// Satellites and modem are heard only with the antenna in air, each after its own time.
+#[test]
+fn under_water_nothing_is_heard_from_shore() {
+    let mut heard = Vec::new();
+    fly_with(
+        1,
+        |_| {},
+        |_| {},
+        |tick| heard.push((tick.state.position_m.z, tick.measurements.modem_up, tick.measurements.gps.is_some())),
+    );
+    assert!(heard.iter().filter(|(depth_m, ..)| *depth_m > 2.0).all(|(_, modem, gps)| !modem && !gps));
+    let first = |of: fn(&(f64, bool, bool)) -> bool| heard.iter().position(of);
+    assert_eq!((first(|(_, modem, _)| *modem), first(|(.., gps)| *gps)), (Some(10 * 4 - 1), Some(20 * 4 - 1)));
+    assert!(heard.last().is_some_and(|(_, modem, gps)| *modem && *gps), "and again in the end");
+}
+
+/// The battery's terminals under the pump's load, at rest, and after it.
+#[test]
+fn voltage_sags_while_the_pump_works_at_depth() {
+    let mut sagged = Vec::new();
+    fly_with(
+        1,
+        |_| {},
+        |flying| flying.sensor_errors.housekeeping.voltage_noise_v = 0.0,
+        |tick| {
+            if tick.commands.phase == Phase::Apogee {
+                sagged.push(f64::from(tick.measurements.battery_mv.unwrap()) / 1e3);
+            }
+        },
+    );
+    // 660 W of pump at 200 m through 0.03 Ω: V (15 − V) = 660 × 0.03, so 13.5 V.
+    let least_v = sagged.iter().copied().fold(f64::MAX, f64::min);
+    assert!((least_v - 13.5).abs() < 0.1, "{least_v} V");
+    assert!(sagged[0] > 14.9, "before the pump starts: {} V", sagged[0]);
 }
 
 #[test]

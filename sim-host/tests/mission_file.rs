@@ -43,6 +43,12 @@ fn headings_wrap_into_one_turn() {
 }
 
 #[test]
+fn a_dive_may_turn_above_the_floor() {
+    let text = DEFAULT.replace("# altitude_m = 15", "altitude_m = 15.5");
+    assert_eq!(MissionFile::from_toml(&text, "m.toml").unwrap().mission.altitude_mm, 15_500);
+}
+
+#[test]
 fn parameters_override_their_defaults_within_bounds() {
     let text = DEFAULT.to_owned() + "[parameters]\nmu_limit_cdeg = 3000\n";
     let parameters = MissionFile::from_toml(&text, "m.toml").unwrap().parameters;
@@ -50,7 +56,7 @@ fn parameters_override_their_defaults_within_bounds() {
 
     let text = DEFAULT.to_owned() + "[parameters]\nmu_limit_cdeg = 99\n";
     let line = MissionFile::from_toml(&text, "m.toml").unwrap_err().to_string();
-    assert_eq!(line, "m.toml:23:17: `parameters.mu_limit_cdeg` is 99, but must be a whole number from 100 to 9000");
+    assert_eq!(line, "m.toml:24:17: `parameters.mu_limit_cdeg` is 99, but must be a whole number from 100 to 9000");
 }
 
 #[test]

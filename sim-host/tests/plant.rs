@@ -3,7 +3,7 @@
 mod common;
 
 use common::{lopsided, unforced};
-use nalgebra::Vector3;
+use nalgebra::{Vector3, Vector6};
 use serde_json::Value;
 use sim_host::{
     eval::eval,
@@ -121,4 +121,26 @@ fn at_rest_and_neutral_nothing_is_not_a_number() {
     let state = State::at_rest(plant.displaced_volume_m3(0.0));
     let rates = plant.derivative(&state, &Input::none(), &plant.still());
     assert!(rates.velocity_m_s.iter().chain(rates.rate_rad_s.iter()).all(|rate| rate.is_finite()));
+}
+
+/// By hand: 1 l more than neutral, 0.55 m ahead of the centre of buoyancy, lifts the nose with ρ g ΔV x = 5.3955 N m.
+#[test]
+fn volume_at_its_station_pitches_and_at_the_centre_of_buoyancy_does_not() {
+    let mut vehicle = slocum();
+    let pitching_nm = |vehicle: &Vehicle, pitch_rad: f64| {
+        let plant = Plant::<f64>::new(vehicle);
+        let moment = |volume_m3: f64| {
+            let quaternion = quaternion_from_euler(&Vector3::new(0.0, pitch_rad, 0.3));
+            plant.body_residual(&State { quaternion, ..State::at_rest(volume_m3) })
+        };
+        moment(vehicle.neutral_volume_m3() + 1e-3) - moment(vehicle.neutral_volume_m3())
+    };
+    let up_n = -1000.0 * 9.81 * 1e-3;
+    assert_eq!(pitching_nm(&vehicle, 0.0)[4], 0.0);
+    vehicle.buoyancy.as_mut().unwrap().acts_at_station = true;
+    // Weights of 490 N cancel in the difference.
+    let level = pitching_nm(&vehicle, 0.0) - Vector6::new(0.0, 0.0, up_n, 0.0, -up_n * 0.55, 0.0);
+    assert!(level.amax() < 1e-12, "{level}");
+    // With the nose up by 60° the lever is half as long.
+    assert!((pitching_nm(&vehicle, std::f64::consts::FRAC_PI_3)[4] + up_n * 0.275).abs() < 1e-12);
 }

@@ -148,6 +148,24 @@ fn the_report_tells_the_dive_and_needs_nothing_else() {
     }
 }
 
+/// What still water without a floor has nothing of is not drawn.
+#[test]
+fn surroundings_are_drawn_where_there_is_something_to_see() {
+    let drawn = |change: &dyn Fn(&mut Sample)| {
+        let mut record = record(2_400);
+        record.samples.iter_mut().for_each(change);
+        let (vehicle, mission) =
+            (Vehicle::load("slocum-paper").unwrap(), MissionFile::load("default").unwrap().mission);
+        let summary = summary(&record);
+        let page = report::html(&Flight { vehicle: &vehicle, mission: &mission, record: &record, summary: &summary });
+        ["Altitude", "Water density", "Current"].map(|title| page.contains(&format!("<b>{title}</b>")))
+    };
+    assert_eq!(drawn(&|_| {}), [false, false, false]);
+    assert_eq!(drawn(&|s| s.truth.floor_depth_m = Some(60.0)), [true, false, false]);
+    assert_eq!(drawn(&|s| s.truth.water.around.density_kg_m3 += s.truth.position_m.z), [false, true, false]);
+    assert_eq!(drawn(&|s| s.truth.water.around.current_m_s.y = -0.1), [false, false, true]);
+}
+
 #[test]
 fn every_number_of_report_and_picture_is_finite_however_short_the_flight() {
     for ticks in [0, 1, 2, PHASE_TICKS, 2_400] {

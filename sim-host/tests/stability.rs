@@ -28,7 +28,8 @@ fn assert_eigenvalues(set: &ModeSet, printed: [(f64, f64); 4]) {
 #[test]
 fn the_longitudinal_modes_are_those_of_table_1() {
     let vehicle = slocum();
-    let set = modes(&vehicle, &glide_at(&vehicle, -35.0, Scale::Speed(0.77)), RollKinematics::Exact).longitudinal;
+    let set =
+        modes(&vehicle, &glide_at(&vehicle, -35.0, Scale::Speed(0.77)), RollKinematics::Exact).unwrap().longitudinal;
     assert_eigenvalues(&set, [(-3.28, 0.0), (-0.85, 0.27), (-0.85, -0.27), (-0.06, 0.0)]);
     let printed = [
         [0.0315, 0.0631, 1.0, 0.1306],
@@ -49,9 +50,9 @@ fn the_longitudinal_modes_are_those_of_table_1() {
 fn the_lateral_modes_are_those_of_table_2_with_its_kinematics() {
     let vehicle = slocum();
     let glide = glide_at(&vehicle, -35.0, Scale::Speed(0.77));
-    let paper = modes(&vehicle, &glide, RollKinematics::Paper).lateral;
+    let paper = modes(&vehicle, &glide, RollKinematics::Paper).unwrap().lateral;
     assert_eigenvalues(&paper, [(-1.81, 0.0), (-1.33, 1.75), (-1.33, -1.75), (-0.17, 0.0)]);
-    let exact = modes(&vehicle, &glide, RollKinematics::Exact);
+    let exact = modes(&vehicle, &glide, RollKinematics::Exact).unwrap();
     assert_eigenvalues(&exact.lateral, [(-2.002, 0.0), (-1.228, 2.058), (-1.228, -2.058), (-0.1725, 0.0)]);
     assert!(exact.coupling < 1e-15, "{}", exact.coupling);
 }
@@ -77,7 +78,7 @@ fn disturbed(plant: &Plant<f64>, trim: &State<f64>, place: usize, size: f64) -> 
 fn the_exact_linearisation_agrees_with_differences() {
     let vehicle = slocum();
     let glide = glide_at(&vehicle, -26.0, Scale::NetMass(0.25));
-    let both = modes(&vehicle, &glide, RollKinematics::Exact);
+    let both = modes(&vehicle, &glide, RollKinematics::Exact).unwrap();
     let (plant, trim, step) = (Plant::<f64>::new(&vehicle), glide.state(), 1e-4);
     for place in 0..6 {
         let (plus, minus) = (disturbed(&plant, &trim, place, step), disturbed(&plant, &trim, place, -step));
@@ -98,7 +99,7 @@ fn the_exact_linearisation_agrees_with_differences() {
 fn eigenvectors_belong_to_their_eigenvalues() {
     let vehicle = slocum();
     for degrees in [-35.0, -12.0, 20.0, 60.0] {
-        let both = modes(&vehicle, &glide_at(&vehicle, degrees, Scale::Speed(0.6)), RollKinematics::Exact);
+        let both = modes(&vehicle, &glide_at(&vehicle, degrees, Scale::Speed(0.6)), RollKinematics::Exact).unwrap();
         let (speed, rate) = (0.77, 0.77 / 1.8);
         for (set, scales) in [(both.longitudinal, [speed, speed, rate, 1.0]), (both.lateral, [speed, rate, rate, 1.0])]
         {

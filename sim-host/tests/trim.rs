@@ -71,3 +71,15 @@ fn what_cannot_be_met_is_named_with_the_nearest_that_can() {
     assert_eq!(refusal(at_degrees(26.0), Scale::NetMass(0.2)), "net mass 0.2 kg: must be negative to glide up");
     assert!(refusal(at_degrees(f64::NAN), Scale::Speed(0.77)).starts_with("path angle NaN°"));
 }
+
+/// A dive's engine is emptied: with the engine in the nose the mass must come back by ρ ΔV x/m_p.
+#[test]
+fn an_engine_in_the_nose_is_trimmed_by_the_moving_mass() {
+    let mut vehicle = slocum();
+    let centred = glide(&vehicle, at_degrees(-35.0), Scale::Speed(0.77)).unwrap();
+    vehicle.buoyancy.as_mut().unwrap().acts_at_station = true;
+    let nose = glide(&vehicle, at_degrees(-35.0), Scale::Speed(0.77)).unwrap();
+    let back_m = nose.net_mass_kg * 0.55 / 9.0;
+    assert!((centred.r_px_m - back_m - nose.r_px_m).abs() < 1e-12);
+    assert_ne!(vehicle.hash(), slocum().hash(), "the trim table of one is not for the other");
+}

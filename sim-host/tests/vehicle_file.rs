@@ -241,6 +241,16 @@ fn a_hull_is_rigid_unless_the_file_says_how_it_gives_way() {
 }
 
 #[test]
+fn the_variable_volume_acts_at_the_centre_of_buoyancy_unless_the_file_says_at_its_station() {
+    assert!(!slocum().buoyancy.unwrap().acts_at_station);
+    let said = |value: &str| with("position_m = 0.55", &format!("acts_at_station = {value}\nposition_m = 0.55"));
+    assert!(Vehicle::from_toml(&said("true"), "v.toml").unwrap().buoyancy.unwrap().acts_at_station);
+    let text = said("\"yes\"");
+    let expected = "`buoyancy.acts_at_station` is \"yes\", but must be true or false";
+    assert_eq!(mistake(&text), place(&text, "\"yes\"") + expected);
+}
+
+#[test]
 fn layout_does_not_change_the_fingerprint() {
     let bare: String = SLOCUM.lines().map(|line| line.split(" #").next().unwrap().to_owned() + "\n\n").collect();
     let reordered = with(
@@ -271,6 +281,7 @@ fn every_value_changes_the_fingerprint() {
     assert_eq!(numbers, 104);
     changed(with("name = \"slocum-paper\"", "name = \"slocum\""));
     changed(with("\"body\"", "\"current\""));
+    changed(with("position_m = 0.55", "position_m = 0.55\nacts_at_station = true"));
     changed(with("radius_m", "inertia_kg_m2 = [0, 0, 1]\nradius_m"));
     for length in ["area_m2", "span_m", "chord_m"] {
         changed(with("moment_frame", &format!("{length} = 0.7\nmoment_frame")));

@@ -34,22 +34,22 @@ struct Cli {
 enum Command {
     /// Fly a mission, controller in the loop, and report on it
     Fly(fly::Args),
-    /// Find a steady wings-level glide
+    /// Find a steady straight glide: wings level, or banked if the vehicle is not symmetric
     Trim(trim::Args),
     /// Turn a glide: how much mu, roll and sideslip it takes, and how fast it can turn
     Turn(stability::TurnArgs),
     /// Disturb a glide: eigenvalues and modes
     Modes(stability::ModesArgs),
+    /// Vary the shape: how the modes move, as root loci
+    Locus(locus::Args),
+    /// Reproduce every figure and table of the paper, side by side with what it prints
+    Paper(paper::Args),
     /// Mark the drag polar: flattest glide and maximum horizontal speed
     Polar(polar::Args),
     /// Size the buoyancy engine: the lung that a speed takes, for this shape or another
     Size(size::Args),
     /// Count the dives of a battery: range and endurance, ideal and realistic
     Endurance(endurance::Args),
-    /// Vary the shape: how the modes move, as root loci
-    Locus(locus::Args),
-    /// Reproduce every figure and table of the paper, side by side with what it prints
-    Paper(paper::Args),
     /// Generate the trim table that flies
     Table(table::Args),
     /// Draw a three-view to scale and the forces of a steady glide, as SVG
@@ -77,11 +77,11 @@ pub fn main() -> ExitCode {
         Command::Trim(args) => trim::run(&args),
         Command::Turn(args) => stability::turn(&args),
         Command::Modes(args) => stability::run_modes(&args),
+        Command::Locus(args) => locus::run(&args),
+        Command::Paper(args) => paper::run(&args),
         Command::Polar(args) => polar::run(&args),
         Command::Size(args) => size::run(&args),
         Command::Endurance(args) => endurance::run(&args),
-        Command::Locus(args) => locus::run(&args),
-        Command::Paper(args) => paper::run(&args),
         Command::Table(args) => table::run(&args),
         Command::Draw(args) => trim::draw(&args),
         Command::Schema(args) => schema::run(&args),

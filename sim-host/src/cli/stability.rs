@@ -146,11 +146,11 @@ fn authority_line(side: &str, authority: &Authority) -> String {
 pub(super) fn run_modes(args: &ModesArgs) -> Result<(), String> {
     let vehicle = super::load_vehicle(&args.vehicle)?;
     let glide = args.glide.solve(&vehicle)?;
-    let answer = modes(&vehicle, &glide, args.roll_kinematics);
+    let answer = modes(&vehicle, &glide, args.roll_kinematics)?;
     if args.json {
         return super::print_json(&answer);
     }
-    for warning in &glide.warnings {
+    for warning in &answer.warnings {
         eprintln!("warning: {warning}");
     }
     super::print(&format!(

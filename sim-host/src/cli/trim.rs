@@ -94,8 +94,9 @@ fn describe(vehicle: &Vehicle, glide: &Glide) -> String {
         format!("  path angle       {:9.4}°", degrees(glide.path_angle_rad)),
         format!("  angle of attack  {:9.4}°", degrees(glide.alpha_rad)),
         format!("  pitch            {:9.4}°", degrees(glide.pitch_rad)),
+        format!("  bank, sideslip   {:9.4}°, {:.4}°", degrees(glide.phi_rad), degrees(glide.beta_rad)),
         format!("  net mass         {:9.4} kg", glide.net_mass_kg),
-        format!("  r_px             {:9.4} m", glide.r_px_m),
+        format!("  r_px, mu         {:9.4} m, {:.4}°", glide.r_px_m, degrees(glide.mu_rad)),
         format!("  displaced volume {:9.6} m³", glide.displaced_volume_m3),
         format!("  C_L, C_D         {:9.5}, {:.5}", glide.lift_coefficient, glide.drag_coefficient),
     ]

@@ -67,7 +67,7 @@ impl DrawnGlide {
             drag_n: -net_weight_n * sin,
             net_weight_n,
             r_px_m: glide.r_px_m,
-            mu_rad: 0.0,
+            mu_rad: glide.mu_rad,
         }
     }
 }

@@ -121,9 +121,9 @@ pub fn fly(
     observe: &mut dyn FnMut(&Tick<'_>),
 ) -> Result<Summary, String> {
     let began = std::time::Instant::now();
-    let plant = Plant::<f64>::new(flying.vehicle).below_surface(&flying.vehicle.hull);
     let ballast_density_kg_m3 = ocean.ballast_density_kg_m3(f64::from(mission.dive_to_mm) / f64::from(MM_PER_M));
     let neutral_volume_m3 = flying.vehicle.mass_kg() / ballast_density_kg_m3;
+    let plant = Plant::<f64>::new(flying.vehicle).below_surface(&flying.vehicle.hull).neutral_with(neutral_volume_m3);
     let mut state = afloat(flying, ocean, &plant, start, neutral_volume_m3);
     let mut sensors = Sensors::new(flying, start, seed);
     let mut actuators = Actuators::new(flying, neutral_volume_m3);

@@ -87,8 +87,8 @@ pub fn compare(vehicle: &Vehicle) -> Result<Vec<Row>, String> {
         Row::new("5.1", "r_px, m", "0.2826", glide.r_px_m, ""),
         Row::new("5.1", "angle of attack, deg", "1.2", glide.alpha_rad.to_degrees(), ""),
     ];
-    let exact = modes(vehicle, &glide, RollKinematics::Exact);
-    let paper = modes(vehicle, &glide, RollKinematics::Paper);
+    let exact = modes(vehicle, &glide, RollKinematics::Exact)?;
+    let paper = modes(vehicle, &glide, RollKinematics::Paper)?;
     rows.extend(mode_rows("Table 1", &TABLE_1, &exact.longitudinal, ["u/V0", "w/V0", "q·1.8 m/V0", "θ"]));
     rows.extend(mode_rows("Table 2", &TABLE_2, &paper.lateral, ["v/V0", "p·1.8 m/V0", "r·1.8 m/V0", "φ"]));
     let right = "φ̇ = p + r tanθ follows from the paper's equation (2); its Table 2 has φ̇ = p";

@@ -144,13 +144,17 @@ impl<T: Real> Plant<T> {
         }
     }
 
-    /// Potential energy in the static water, U = −m̃ g (i3·X) − g ζ·(m_rb r_rb + m_p r_p), J.
+    /// Potential energy in the static water, U = −m̃ g (i3·X) − g ζ·(m_rb r_rb + m_p r_p − ρ ΔV x e1), J.
+    ///
+    /// The last term is there if the variable volume ΔV acts at its station x.
     #[must_use]
     pub fn potential_energy_j(&self, state: &State<T>) -> T {
         let down = rotation_from_quaternion(&state.quaternion).row(2).transpose();
         let moment = self.body_moment_kg_m + self.particle_place(state.r_px_m, state.mu_rad).r * self.particle_kg;
+        let turned =
+            self.displaced_moment_kg_m(state, self.density_kg_m3).map_or(moment, |displaced| moment - displaced);
         let weight = self.net_mass_kg(state.displaced_volume_m3) * state.position_m.z;
-        -(weight + down.dot(&moment)) * self.gravity_m_s2
+        -(weight + down.dot(&turned)) * self.gravity_m_s2
     }
 
     /// Right-hand sides of (4)–(7), less Ṁ η, inputs left out.
@@ -177,7 +181,10 @@ impl<T: Real> Plant<T> {
         if let Some(carried) = &carried {
             force += carried.force_n;
         }
-        let torque = h.cross(&w) + p.cross(&v) + moment.cross(&felt) + viscous.moment_nm;
+        let mut torque = h.cross(&w) + p.cross(&v) + moment.cross(&felt) + viscous.moment_nm;
+        if let Some(displaced) = self.displaced_moment_kg_m(state, water.density_kg_m3) {
+            torque -= displaced.cross(&gravity);
+        }
         let (lost_force, lost_torque) = self.emerged(state, &zeta, water);
         let on_particle = motion.momentum.cross(&motion.rate) + felt * self.particle_kg;
 

@@ -11,6 +11,7 @@ mod hydrodynamics;
 mod inertia;
 mod integrate;
 mod solve;
+mod station;
 mod surface;
 mod surroundings;
 
@@ -102,6 +103,8 @@ pub struct Plant<T: Real> {
     reference_temperature_c: T,
     coefficients: Coefficients<T>,
     crossflow: Option<crossflow::Crossflow<T>>,
+    /// Present where the variable volume acts away from the centre of buoyancy.
+    station: Option<station::Station<T>>,
     /// Present where the water has a surface.
     hull: Option<surface::Hull<T>>,
 }
@@ -175,6 +178,7 @@ impl<T: Real> Plant<T> {
             reference_temperature_c: c(elastic.reference_temperature_c),
             coefficients: Coefficients::new(&vehicle.hydrodynamics),
             crossflow: crossflow::Crossflow::new(vehicle),
+            station: station::Station::new(vehicle),
             hull: None,
         }
     }

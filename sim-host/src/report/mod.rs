@@ -2,6 +2,7 @@
 
 pub mod figures;
 mod picture;
+mod surroundings;
 mod tables;
 mod traces;
 mod track;

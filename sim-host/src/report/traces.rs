@@ -15,7 +15,7 @@ const SHORTEST_MIN: f64 = 0.1;
 /// Marks on the time axis, about.
 const TIME_MARKS: f64 = 10.0;
 /// Marks on an upright axis, about.
-const MARKS: f64 = 5.0;
+pub(super) const MARKS: f64 = 5.0;
 
 /// Consumers of energy, the lowermost of the stack first: style and name, and the energy used so far, J.
 const CONSUMERS: [Consumer; 4] = [
@@ -63,7 +63,7 @@ impl<'a> Traces<'a> {
 
     /// All of them, in the order of the report.
     pub(super) fn all(&self, targets: &DepthTargets) -> Vec<Trace> {
-        vec![
+        let mut all = vec![
             self.depth(targets),
             self.pitch(),
             self.heading(),
@@ -74,7 +74,9 @@ impl<'a> Traces<'a> {
             self.mass_rotation(),
             self.buoyancy(),
             self.energy(),
-        ]
+        ];
+        all.extend(self.surroundings());
+        all
     }
 
     pub(super) fn depth(&self, targets: &DepthTargets) -> Trace {
@@ -199,7 +201,7 @@ impl<'a> Traces<'a> {
         self.trace(title, "°", key, axis, curves)
     }
 
-    fn trace(
+    pub(super) fn trace(
         &self,
         title: &'static str,
         unit: &'static str,
@@ -219,7 +221,7 @@ impl<'a> Traces<'a> {
     }
 
     /// One point per sample that has a value; not a number breaks the curve.
-    fn curve(&self, class: &'static str, value: impl Fn(&Sample) -> Option<f64>) -> Curve {
+    pub(super) fn curve(&self, class: &'static str, value: impl Fn(&Sample) -> Option<f64>) -> Curve {
         let points = self.record.samples.iter().filter_map(|s| Some([minutes(s), value(s)?])).collect();
         Curve { class, points }
     }
@@ -266,7 +268,7 @@ fn degrees(cdeg: impl Into<f64>) -> f64 {
     (cdeg.into() * f64::from(RAD_PER_CDEG)).to_degrees()
 }
 
-fn values(curves: &[Curve]) -> impl Iterator<Item = f64> {
+pub(super) fn values(curves: &[Curve]) -> impl Iterator<Item = f64> {
     curves.iter().flat_map(|curve| curve.points.iter().map(|[_, y]| *y))
 }
 

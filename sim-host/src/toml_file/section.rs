@@ -150,6 +150,11 @@ impl Section<'_> {
         })
     }
 
+    /// `true` or `false`, and `default` if it is left out.
+    pub fn flag_or(&mut self, key: &'static str, default: bool) -> bool {
+        if self.has(key) { self.required(key, "true or false", Value::as_bool).unwrap_or(default) } else { default }
+    }
+
     /// A list of `N` numbers.
     pub fn numbers<const N: usize>(&mut self, key: &'static str, rule: Rule) -> [f64; N] {
         self.describe(key, true, || schema::list(rule.schema(), N, N));

@@ -3,8 +3,8 @@
 //! `[hydrodynamics]` may leave out `area_m2`, `span_m` and `chord_m` (then the wing's), `moment_frame` (then `"body"`) and
 //! the coefficients that symmetry makes small: `lift.zero`, `lift.q`, `pitch.zero`, `side.p`, `side.r`, `roll.r`, `yaw.p`
 //! (then 0). Every other coefficient must be there. `[buoyancy]` may leave out `compressibility_per_pa`, `thermal_expansion_per_c`
-//! (then 0) and `reference_temperature_c` (then 15). `[crossflow]` may leave out its areas (then the geometry's). `[water]` may
-//! leave out `kinematic_viscosity_m2_s` (then 1e-6: fresh water at 20 °C; sea water at 5 °C has 1.6e-6).
+//! (then 0), `reference_temperature_c` (then 15) and `acts_at_station` (then `false`). `[crossflow]` may leave out its areas
+//! (then the geometry's). `[water]` may leave out `kinematic_viscosity_m2_s` (then 1e-6: fresh water at 20 °C; sea water at 5 °C has 1.6e-6).
 //!
 //! `[hydrodynamics]` and `[added_mass]` may be left out whole: they then come from the geometry ([`crate::coefficients`]), at the
 //! nominal speed and the mean of dive and climb.
@@ -220,6 +220,7 @@ fn buoyancy(buoyancy: &mut Section<'_>) -> Buoyancy {
         pump_rate_m3_s: buoyancy.number("pump_rate_m3_s", Rule::Positive),
         bleed_rate_m3_s: buoyancy.number("bleed_rate_m3_s", Rule::Positive),
         position_m: buoyancy.number("position_m", Rule::Finite),
+        acts_at_station: buoyancy.flag_or("acts_at_station", false),
         efficiency: buoyancy.pairs("efficiency"),
         idle_power_w: buoyancy.number("idle_power_w", Rule::NotNegative),
         engine: Engine::read(buoyancy, volume_m3),

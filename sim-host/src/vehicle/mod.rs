@@ -198,8 +198,10 @@ pub struct Buoyancy {
     pub pump_rate_m3_s: f64,
     /// Bleeding rate, m³/s.
     pub bleed_rate_m3_s: f64,
-    /// Station on the hull's axis, m forward of the centre of buoyancy (drawn; acts at the origin).
+    /// Station on the hull's axis, m forward of the centre of buoyancy.
     pub position_m: f64,
+    /// Whether the volume beyond neutral acts at the station; else, with all the rest, at the centre of buoyancy.
+    pub acts_at_station: bool,
     /// Ideal work over electrical energy, as (gauge pressure in Pa, efficiency), pressure rising.
     pub efficiency: Vec<[f64; 2]>,
     /// Electrical power of the pump that no pressure takes away (friction, electronics), W.

@@ -23,7 +23,7 @@ fn it_trims_within_its_devices_and_every_mode_decays() {
         let condition = Condition::PathAngle(path_angle_deg.to_radians());
         let glide = glide(&vehicle, condition, Scale::NetMass(net_mass_kg)).unwrap();
         assert_eq!(glide.warnings, [""; 0]);
-        let modes = modes(&vehicle, &glide, RollKinematics::Exact);
+        let modes = modes(&vehicle, &glide, RollKinematics::Exact).unwrap();
         for [re, _] in modes.longitudinal.eigenvalues.into_iter().chain(modes.lateral.eigenvalues) {
             assert!(re < 0.0, "{path_angle_deg}°: {re} 1/s");
         }

@@ -10,13 +10,13 @@ use std::f64::consts::PI;
 use nalgebra::{Matrix3, Vector3};
 
 use super::Shape;
-use crate::real::Real;
+use crate::{real::Real, vehicle::AddedMass};
 
 /// Below this square of the eccentricity the closed form loses digits, and its series has them all.
 const SERIES_BELOW: f64 = 0.1;
 const SERIES_TERMS: i32 = 16;
 
-/// M_f, J_f and C_f; names as in [`crate::vehicle::AddedMass`].
+/// M_f, J_f and C_f; names as in [`AddedMass`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AddedMassOf<T: Real> {
     /// M_f, kg.
@@ -25,6 +25,12 @@ pub struct AddedMassOf<T: Real> {
     pub inertia_kg_m2: Matrix3<T>,
     /// C_f, kg m: row moment axis, column velocity axis.
     pub coupling_kg_m: Matrix3<T>,
+}
+
+impl From<AddedMassOf<f64>> for AddedMass {
+    fn from(a: AddedMassOf<f64>) -> Self {
+        Self { mass_kg: a.mass_kg, inertia_kg_m2: a.inertia_kg_m2, coupling_kg_m: a.coupling_kg_m }
+    }
 }
 
 /// Lamb's k₁ (along), k₂ (across) and k′ (turning end over end) of a prolate spheroid of some fineness, 1 or more.

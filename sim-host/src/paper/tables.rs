@@ -146,5 +146,7 @@ fn one_mode(place: &str, printed: &PrintedMode, set: &ModeSet, entries: [&str; 4
             printed.remark,
         ));
     }
+    // A remark explains what is missed.
+    rows.iter_mut().filter(|row| row.reproduced).for_each(|row| row.remark.clear());
     rows
 }

@@ -30,6 +30,8 @@
 //! | linearisation by dual numbers against central differences | `tests/stability.rs` | 1e-7 relative: the differences' own error |
 //! | Seawing's published spiral | `tests/seawing.rs` | 2 %: published digits, another drag law |
 
+pub mod baseline;
+pub mod campaign;
 pub mod chart;
 pub mod cli;
 pub mod draw;

@@ -125,7 +125,7 @@ fn table_name(args: &Args) -> String {
 }
 
 /// Why a mission cannot be flown, in the mission file's own names and units.
-fn refusal(file: &MissionFile, error: &ConfigurationError) -> FileError {
+pub(super) fn refusal(file: &MissionFile, error: &ConfigurationError) -> FileError {
     let (key, value, min, max) = match error {
         ConfigurationError::Mission(wrong) => {
             let (key, scale) = in_file(wrong.field);

@@ -36,7 +36,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     seeds: u64,
     /// Speed of a steady current from an unknown direction
-    #[arg(long, value_name = "M_S", default_value_t = 0.0)]
+    #[arg(long, value_name = "M_S", default_value_t = 0.0, allow_negative_numbers = true)]
     current: f64,
     /// Who flies
     #[arg(long, value_enum, default_value_t = Pilots::Both)]

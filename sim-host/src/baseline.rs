@@ -4,18 +4,18 @@
 //! reckoning: what differs is how pitch and heading are held, and when a reversal begins.
 //!
 //! * Pitch aims at the mission's path angle, since the angle of attack is not known; PID on the axial position.
-//! * Heading by the rotation of the mass: PID, held to the ±0.52 rad of a Slocum's battery roll. Which way the mass turns the
-//!   vehicle must be told ([`TurnSense`]): no fixed gain can know it.
+//! * Heading by the rotation of the mass: PID, held to the ±0.52 rad of a Slocum's battery roll. Which way the mass
+//!   turns the vehicle must be told ([`TurnSense`]): no fixed gain can know it.
 //! * A reversal begins a fixed share of the pump's time to neutral ahead of its depth.
 //!
 //! # How it was tuned
-//! By hand, on the default mission of slocum-paper in still water with the first 12 seeds of a campaign, one value at a time,
-//! from what fielded gliders use: a Slocum's pitch deadband of 3° and battery roll (P 1.0, I 0.03 /s, ±0.52 rad), a
+//! By hand, on the default mission of slocum-paper in still water with the first 12 seeds of a campaign, one value at a
+//! time, from what fielded gliders use: a Slocum's pitch deadband of 3° and battery roll (P 1.0, I 0.03 /s, ±0.52 rad), a
 //! Seaglider's axial deadband of 1 mm. It stopped where settling times, heading rms and the number of moves no longer
 //! improved together.
-//! * Pitch deadband 1.5°: with 3° the path angle stays that far off; with 1° the moves double.
-//! * Heading P 2.5, since P 1.0 takes 270 s for 30° on this vehicle; no integral, since any made the turns overshoot (a yawing
-//!   vehicle integrates by itself, and this one is symmetric); no damping, which only added moves.
+//! * Pitch deadband 1.5° and period 8 s: 3° would leave the path angle that far off; 1° and 4 s make three times the moves.
+//! * Heading P 2.5: P 1.0 takes 270 s for 30° on this vehicle. No integral: any raised the heading rms, since a yawing
+//!   vehicle integrates by itself and this one is symmetric. No damping: it only added moves.
 
 use shared::{
     device::{Commands, MM_PER_M, Measurements, TICK_HZ},
@@ -40,7 +40,8 @@ const AXIAL_DEADBAND_UM: i32 = 1_000;
 const ROTATION: Range = Range { min: -2_980, max: 2_980 };
 /// Change of rotation that is not worth a move, 0.01°.
 const ROTATION_DEADBAND_CDEG: i32 = 400;
-/// Part of the pump's time to neutral by which a reversal begins ahead of its depth: as if it sank on until neutral, then stood.
+/// Part of the pump's time to neutral by which a reversal begins ahead of its depth: as if the vehicle sank on until
+/// neutral, and then stood.
 const LEAD_SHARE: f32 = 1.0;
 /// Above this depth the wings may leave the water, and heading is left alone, m.
 const HEADING_DEPTH_M: f32 = 2.0;

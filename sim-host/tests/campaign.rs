@@ -1,4 +1,4 @@
-//! Campaigns: the same flights whatever the number of threads, a fair opponent, and figures that follow from the record.
+//! Campaigns: the same flights whatever the number of threads, a fair opponent, and bad input in one line.
 
 use std::{fs, num::NonZero, path::Path, process::Command};
 
@@ -22,8 +22,8 @@ fn fly(water: &str, seeds: u64, threads: usize, sense: TurnSense, current_m_s: f
     let bytes = generate(&vehicle, &Envelope::default()).unwrap();
     let table = TrimTable::parse(&bytes).unwrap();
     let pilots = [
-        Flyer::Autopilot(Autopilot::new(&table, &file.mission, &file.parameters).unwrap()),
-        Flyer::Baseline(Baseline::new(table.vehicle(), &file.mission, &file.parameters, sense)),
+        Flyer::Autopilot(Box::new(Autopilot::new(&table, &file.mission, &file.parameters).unwrap())),
+        Flyer::Baseline(Box::new(Baseline::new(table.vehicle(), &file.mission, &file.parameters, sense))),
     ];
     let waters = [(water.to_string(), Ocean::load(water, &vehicle.water).unwrap())];
     let campaign = Campaign { vehicle: &vehicle, file: &file, waters: &waters, pilots: &pilots, seeds, current_m_s };
@@ -71,7 +71,7 @@ fn a_seed_draws_the_same_vehicle_again_within_what_is_known_of_it() {
     assert_ne!(Drawn::new(1, 0.0), Drawn::new(2, 0.0));
 }
 
-/// With the ballast that was drawn, the vehicle is neutral half-way between surface and target depth, but for the grams it is off.
+/// The vehicle is neutral half-way between surface and target depth, but for the grams that were drawn.
 #[test]
 fn a_hull_that_gives_way_is_ballasted_for_the_middle_of_its_dive() {
     let vehicle = Vehicle::load("slocum-deep").unwrap();

@@ -44,10 +44,10 @@ const fn metric(name: &'static str, about: &'static str, of: fn(&Seen<'_>) -> Op
 /// Every figure, in order.
 pub const METRICS: &[Metric] = &[
     metric("apogee_over_percent", "apogee below its target, worst yo, of the target depth", |s| {
-        Some(apogee_error_percent(s).map(|error| error.max(0.0)).reduce(f64::max)?)
+        apogee_error_percent(s).map(|error| error.max(0.0)).reduce(f64::max)
     }),
     metric("apogee_under_percent", "apogee above its target, worst yo, of the target depth", |s| {
-        Some(apogee_error_percent(s).map(|error| (-error).max(0.0)).reduce(f64::max)?)
+        apogee_error_percent(s).map(|error| (-error).max(0.0)).reduce(f64::max)
     }),
     metric(
         "pitch_settling_s",

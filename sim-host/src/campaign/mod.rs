@@ -1,7 +1,7 @@
-//! Judges a controller over many flights: what a mission comes to with vehicles, instruments and currents nobody knows exactly.
+//! Judges a controller over many flights, with vehicles, instruments and currents that nobody knows exactly.
 //!
-//! A seed stands for one vehicle on one day: its coefficients, ballast and current ([`Drawn`]) and all errors of its
-//! instruments. Every pilot flies the same seeds in every water, so that they can be compared flight by flight. A flight
+//! A seed stands for one vehicle on one day: its coefficients, ballast and current ([`Drawn`]) and all errors of
+//! its instruments. Every pilot flies the same seeds in every water, so that they can be compared flight by flight. A flight
 //! depends on its seed alone, not on how many fly at a time.
 
 mod draw;
@@ -61,9 +61,9 @@ pub struct Campaign<'a> {
 #[derive(Clone, Debug)]
 pub enum Flyer<'a> {
     /// The autopilot.
-    Autopilot(Autopilot<'a>),
+    Autopilot(Box<Autopilot<'a>>),
     /// The classical controller.
-    Baseline(Baseline),
+    Baseline(Box<Baseline>),
 }
 
 impl<'a> Flyer<'a> {
@@ -79,8 +79,8 @@ impl<'a> Flyer<'a> {
     /// One that has not flown yet.
     fn fresh(&self) -> Box<dyn Pilot + 'a> {
         match self {
-            Self::Autopilot(autopilot) => Box::new(autopilot.clone()),
-            Self::Baseline(baseline) => Box::new(baseline.clone()),
+            Self::Autopilot(autopilot) => autopilot.clone(),
+            Self::Baseline(baseline) => baseline.clone(),
         }
     }
 }

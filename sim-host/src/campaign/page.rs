@@ -23,6 +23,10 @@ const DRAWN: [&str; 8] = [
 /// Axes end at this quantile of the widest spread: one stray flight shall not squeeze all others.
 const SHOWN: f64 = 0.98;
 
+const ABOUT: &str = "Each seed is a vehicle that differs a little from its file: coefficients by up to 10 %, damping by up \
+    to 20 %, ballast by up to 30 g, a compass that deviates by 2° rms. Every pilot flies the same seeds. The figures are \
+    over the flights that completed the mission; less is better in all of them.";
+
 /// The page; `title` says what was flown.
 #[must_use]
 pub fn html(title: &str, flown: &[Flown], tallies: &[Tally]) -> String {
@@ -37,9 +41,7 @@ pub fn html(title: &str, flown: &[Flown], tallies: &[Tally]) -> String {
             }
             body {
                 h1 { (title) }
-                p { "Each seed is a vehicle that differs a little from its file: coefficients by up to 10 %, damping by up to 20 %, \
-                     ballast by up to 30 g, a compass that deviates by 2° rms. Every pilot flies the same seeds. The figures are \
-                     over the flights that completed the mission; less is better in all of them." }
+                p { (ABOUT) }
                 div.scroll { (PreEscaped(distributions(flown).svg())) }
                 @for pilots in tallies.chunk_by(|a, b| a.environment == b.environment) { (table(pilots)) }
                 dl { @for metric in METRICS { dt { (metric.name) } dd { (metric.about) } } }

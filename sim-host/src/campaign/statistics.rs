@@ -36,7 +36,8 @@ pub(super) fn sorted(values: impl IntoIterator<Item = f64>) -> Vec<f64> {
     sorted
 }
 
-/// Linear between the sorted values, of which the first is the quantile 0 and the last the quantile 1 (Hyndman & Fan's type 7).
+/// Linear between the sorted values, of which the first is the quantile 0 and the last the quantile 1: type 7 of Hyndman &
+/// Fan, "Sample quantiles in statistical packages", The American Statistician 50(4), 1996.
 pub(super) fn quantile(sorted: &[f64], share: f64) -> f64 {
     let Some(last) = sorted.len().checked_sub(1) else { return f64::NAN };
     let place = share.clamp(0.0, 1.0) * last as f64;

@@ -123,7 +123,10 @@ fn pilots<'a>(who: Pilots, table: &TrimTable<'a>, file: &MissionFile) -> Result<
         Autopilot::new(table, &file.mission, &file.parameters).map_err(|error| refusal(file, &error).to_string())?;
     let sense = turn_sense(table, &file.mission);
     let baseline = Baseline::new(table.vehicle(), &file.mission, &file.parameters, sense);
-    let both = [(Pilots::Autopilot, Flyer::Autopilot(autopilot)), (Pilots::Baseline, Flyer::Baseline(baseline))];
+    let both = [
+        (Pilots::Autopilot, Flyer::Autopilot(Box::new(autopilot))),
+        (Pilots::Baseline, Flyer::Baseline(Box::new(baseline))),
+    ];
     Ok(both.into_iter().filter(|(pilot, _)| who == Pilots::Both || who == *pilot).map(|(_, flyer)| flyer).collect())
 }
 

@@ -31,8 +31,8 @@ pub(super) struct Args {
     /// Path of a vehicle file, or the name of an embedded vehicle (default: the mission's)
     #[arg(long, value_name = "VEHICLE")]
     vehicle: Option<String>,
-    /// Path of an environment file or of a CTD cast (.csv), or the name of an embedded environment: still, tropical,
-    /// temperate, polar, baltic
+    /// Path of an environment file or of a CTD cast (.csv), or the name of an embedded environment: still, calm,
+    /// tropical, temperate, polar, baltic
     #[arg(long, value_name = "ENVIRONMENT", default_value = "still")]
     environment: String,
     /// Fly with this trim table instead of one made for the vehicle now

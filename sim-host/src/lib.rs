@@ -37,6 +37,8 @@
 //! | the paper's trends with geometry, and where they do not hold | `tests/trends.rs` | sign |
 //! | Seawing's published spiral | `tests/seawing.rs` | 2 %: published digits, another drag law |
 
+pub mod baseline;
+pub mod campaign;
 pub mod chart;
 pub mod cli;
 pub mod coefficients;

@@ -9,8 +9,13 @@ use shared::{
 use crate::toml_file::{self, FileError, Rule, Section};
 
 /// Missions that need no file: name, file it comes from, text.
-const EMBEDDED: &[(&str, &str, &str)] =
-    &[("default", "missions/default.toml", include_str!("../missions/default.toml"))];
+const EMBEDDED: &[(&str, &str, &str)] = &[
+    ("default", "missions/default.toml", include_str!("../missions/default.toml")),
+    ("fast-50", "missions/fast-50.toml", include_str!("../missions/fast-50.toml")),
+    ("slow-50", "missions/slow-50.toml", include_str!("../missions/slow-50.toml")),
+    ("slow-200", "missions/slow-200.toml", include_str!("../missions/slow-200.toml")),
+    ("slow-1000", "missions/slow-1000.toml", include_str!("../missions/slow-1000.toml")),
+];
 
 /// Metres per degree of latitude, on the sphere of 6371 km that the controller uses.
 pub const M_PER_DEG: f64 = 111_194.93;

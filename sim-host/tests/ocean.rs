@@ -181,5 +181,8 @@ fn mistakes_are_answered_with_their_place() {
         assert_eq!(parse(text).unwrap_err(), expected, "{text}");
     }
     let error = Ocean::load("nowhere", &SLOCUM.water).unwrap_err().to_string();
-    assert!(error.ends_with("nor an embedded one (`still`, `tropical`, `temperate`, `polar`, `baltic`)"), "{error}");
+    assert!(
+        error.ends_with("nor an embedded one (`still`, `calm`, `tropical`, `temperate`, `polar`, `baltic`)"),
+        "{error}"
+    );
 }

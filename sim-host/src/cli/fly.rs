@@ -33,8 +33,8 @@ pub(super) struct Args {
     /// Path of a vehicle file, or the name of an embedded vehicle (default: the mission's)
     #[arg(long, value_name = "VEHICLE")]
     vehicle: Option<String>,
-    /// Path of an environment file or of a CTD cast (.csv), or the name of an embedded environment: still, tropical,
-    /// temperate, polar, baltic
+    /// Path of an environment file or of a CTD cast (.csv), or the name of an embedded environment: still, calm,
+    /// tropical, temperate, polar, baltic
     #[arg(long, value_name = "ENVIRONMENT", default_value = "still")]
     environment: String,
     /// Fly with this trim table instead of one made for the vehicle now
@@ -141,7 +141,7 @@ fn table_name(args: &Args) -> String {
 }
 
 /// Why a mission cannot be flown, in the mission file's own names and units.
-fn refusal(file: &MissionFile, error: &ConfigurationError) -> FileError {
+pub(super) fn refusal(file: &MissionFile, error: &ConfigurationError) -> FileError {
     let (key, value, min, max) = match error {
         ConfigurationError::Mission(wrong) => {
             let (key, scale) = in_file(wrong.field);

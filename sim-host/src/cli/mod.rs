@@ -1,5 +1,6 @@
 //! The command line of `glider`: answers on stdout, everything else on stderr, one clear line on bad input.
 
+mod campaign;
 mod endurance;
 mod fly;
 mod locus;
@@ -34,6 +35,8 @@ struct Cli {
 enum Command {
     /// Fly a mission, controller in the loop, and report on it
     Fly(fly::Args),
+    /// Fly a mission with many vehicles, each a little off its file, and compare the autopilot with a classical controller
+    Campaign(campaign::Args),
     /// Find a steady straight glide: wings level, or banked if the vehicle is not symmetric
     Trim(trim::Args),
     /// Turn a glide: how much mu, roll and sideslip it takes, and how fast it can turn
@@ -74,6 +77,7 @@ struct EvalArgs {
 pub fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Fly(args) => fly::run(&args),
+        Command::Campaign(args) => campaign::run(&args),
         Command::Trim(args) => trim::run(&args),
         Command::Turn(args) => stability::turn(&args),
         Command::Modes(args) => stability::run_modes(&args),

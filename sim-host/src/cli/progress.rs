@@ -1,4 +1,4 @@
-//! Simulated time, depth and phase of a flight under way, on a terminal only.
+//! Simulated time, depth and phase of a flight under way, or how many of a campaign have landed; on a terminal only.
 
 use indicatif::{ProgressBar, ProgressStyle};
 use shared::mission::Mission;
@@ -34,4 +34,11 @@ impl Progress {
     pub(super) fn finish(&self) {
         self.bar.finish_and_clear();
     }
+}
+
+/// A bar for many flights.
+pub(super) fn flights(count: u64) -> ProgressBar {
+    let bar = ProgressBar::new(count);
+    let template = "{spinner} [{bar:30}] {pos}/{len} flights, {eta} left";
+    bar.with_style(ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar()))
 }

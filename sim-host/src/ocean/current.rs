@@ -18,6 +18,11 @@ impl Current {
         Self { points, uniform }
     }
 
+    /// With a velocity north and east, m/s, on top at every depth.
+    pub(super) fn carried_along(self, [north, east]: [f64; 2]) -> Self {
+        Self::new(self.points.into_iter().map(|[depth_m, n, e]| [depth_m, n + north, e + east]).collect())
+    }
+
     /// Whether it is the same at every depth.
     pub(super) fn is_uniform(&self) -> bool {
         self.uniform

@@ -20,6 +20,7 @@ use crate::{
 /// Environments that need no file: name, file it comes from, text.
 pub const EMBEDDED: &[(&str, &str, &str)] = &[
     ("still", "environments/still.toml", include_str!("../../environments/still.toml")),
+    ("calm", "environments/calm.toml", include_str!("../../environments/calm.toml")),
     ("tropical", "environments/tropical.toml", include_str!("../../environments/tropical.toml")),
     ("temperate", "environments/temperate.toml", include_str!("../../environments/temperate.toml")),
     ("polar", "environments/polar.toml", include_str!("../../environments/polar.toml")),

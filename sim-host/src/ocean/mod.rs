@@ -28,6 +28,7 @@
 //! direction_deg = 270
 //! ```
 
+mod altered;
 mod cast;
 mod column;
 mod current;

@@ -106,7 +106,8 @@ fn is_on_heading(sample: &Sample) -> bool {
 }
 
 /// True heading minus the one aimed at, deg, −180 to 180.
-fn heading_error_deg(sample: &Sample) -> f64 {
+#[must_use]
+pub fn heading_error_deg(sample: &Sample) -> f64 {
     let target_deg = f64::from(sample.commands.target_heading_cdeg) / 100.0;
     (sample.truth.euler_rad.z.to_degrees() - target_deg + 180.0).rem_euclid(360.0) - 180.0
 }

@@ -1,0 +1,181 @@
+//! Judges a controller over many flights, with vehicles, instruments and currents that nobody knows exactly.
+//!
+//! A seed stands for one vehicle on one day: its coefficients, ballast and current ([`Drawn`]) and all errors of
+//! its instruments. Every pilot flies the same seeds in every water, so that they can be compared flight by flight. A flight
+//! depends on its seed alone, not on how many fly at a time.
+
+mod draw;
+mod metrics;
+mod page;
+mod statistics;
+mod table;
+
+use std::{
+    num::NonZero,
+    sync::{
+        atomic::{AtomicUsize, Ordering},
+        mpsc,
+    },
+    thread,
+};
+
+use shared::autopilot::Autopilot;
+
+pub use draw::{Drawn, FACTORS};
+pub use metrics::{METRICS, Metric, Seen};
+pub use page::html;
+pub use statistics::{Spread, Tally, tallies};
+pub use table::{text, write_csv};
+
+use crate::{
+    baseline::Baseline,
+    flight::{FlyingVehicle, Outcome, SensorErrors, fly},
+    mission_file::MissionFile,
+    ocean::Ocean,
+    pilot::Pilot,
+    record::{Record, Sample},
+    vehicle::Vehicle,
+};
+
+/// Deviation that a compass keeps after calibration, constant over a flight, deg rms.
+const COMPASS_DEVIATION_DEG: f64 = 2.0;
+
+/// Many flights of one mission.
+#[derive(Clone, Debug)]
+pub struct Campaign<'a> {
+    /// The vehicle as its file says; each seed flies one a little different.
+    pub vehicle: &'a Vehicle,
+    /// What is flown.
+    pub file: &'a MissionFile,
+    /// Where: names and oceans.
+    pub waters: &'a [(String, Ocean)],
+    /// Who flies; they know the vehicle of the file.
+    pub pilots: &'a [Flyer<'a>],
+    /// Seeds 1 to this one.
+    pub seeds: u64,
+    /// Speed of a steady current from an unknown direction, m/s.
+    pub current_m_s: f64,
+}
+
+/// Who flies.
+#[derive(Clone, Debug)]
+pub enum Flyer<'a> {
+    /// The autopilot.
+    Autopilot(Box<Autopilot<'a>>),
+    /// The classical controller.
+    Baseline(Box<Baseline>),
+}
+
+impl<'a> Flyer<'a> {
+    /// As it is called in tables and files.
+    #[must_use]
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::Autopilot(_) => "autopilot",
+            Self::Baseline(_) => "baseline",
+        }
+    }
+
+    /// One that has not flown yet.
+    fn fresh(&self) -> Box<dyn Pilot + 'a> {
+        match self {
+            Self::Autopilot(autopilot) => autopilot.clone(),
+            Self::Baseline(baseline) => baseline.clone(),
+        }
+    }
+}
+
+/// What one flight came to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Flown {
+    /// Name of the water.
+    pub water: String,
+    /// Name of the pilot.
+    pub pilot: &'static str,
+    /// Its seed.
+    pub seed: u64,
+    /// What the seed drew.
+    pub drawn: Drawn,
+    /// How it ended.
+    pub outcome: Outcome,
+    /// Why it ended early or did not come back; empty if neither.
+    pub reason: String,
+    /// In the order of [`METRICS`]; nothing where a flight did not come to it.
+    pub values: Vec<Option<f64>>,
+}
+
+/// Flies all waters, pilots and seeds, in this order, on some threads; `landed` hears of each flight that is over.
+///
+/// # Errors
+/// What keeps the vehicle from flying, in one line.
+pub fn run(
+    campaign: &Campaign<'_>,
+    threads: NonZero<usize>,
+    mut landed: impl FnMut(&Flown),
+) -> Result<Vec<Flown>, String> {
+    let waters = campaign.waters.iter();
+    let parties = waters.flat_map(|water| campaign.pilots.iter().map(move |pilot| (water, pilot)));
+    let flights: Vec<_> = parties.flat_map(|party| (1..=campaign.seeds).map(move |seed| (party, seed))).collect();
+    let next = AtomicUsize::new(0);
+    thread::scope(|scope| {
+        let (sender, receiver) = mpsc::channel();
+        for _ in 0..threads.get() {
+            let (sender, next, flights) = (sender.clone(), &next, &flights);
+            scope.spawn(move || {
+                loop {
+                    let index = next.fetch_add(1, Ordering::Relaxed);
+                    let Some(((water, pilot), seed)) = flights.get(index) else { break };
+                    if sender.send((index, fly_one(campaign, water, pilot, *seed))).is_err() {
+                        break;
+                    }
+                }
+            });
+        }
+        drop(sender);
+        let mut flown = Vec::with_capacity(flights.len());
+        for (index, flight) in receiver {
+            let flight = flight?;
+            landed(&flight);
+            flown.push((index, flight));
+        }
+        flown.sort_by_key(|(index, _)| *index);
+        Ok(flown.into_iter().map(|(_, flight)| flight).collect())
+    })
+}
+
+/// One flight; its record is measured and dropped.
+fn fly_one(
+    campaign: &Campaign<'_>,
+    (name, ocean): &(String, Ocean),
+    flyer: &Flyer<'_>,
+    seed: u64,
+) -> Result<Flown, String> {
+    let MissionFile { mission, start, .. } = campaign.file;
+    let drawn = Drawn::new(seed, campaign.current_m_s);
+    let vehicle = drawn.vehicle(campaign.vehicle);
+    let ocean = drawn.ocean(ocean, campaign.vehicle, f64::from(mission.dive_to_mm) / 1e3);
+    let flying = FlyingVehicle { sensor_errors: sensor_errors(), ..FlyingVehicle::new(&vehicle)? };
+    let mut record = Record { start: *start, water: vehicle.water.clone(), samples: Vec::new() };
+    let mut pilot = flyer.fresh();
+    let summary = fly(&flying, &ocean, mission, start, seed, pilot.as_mut(), &mut |tick| {
+        record.samples.push(Sample::from(tick));
+    })?;
+    let seen = Seen { mission, record: &record, summary: &summary };
+    let loss = summary.loss.map(|loss| format!("{loss:?}"));
+    Ok(Flown {
+        water: name.clone(),
+        pilot: flyer.name(),
+        seed,
+        drawn,
+        outcome: summary.outcome,
+        reason: loss.into_iter().chain(summary.aborts.iter().cloned()).collect::<Vec<_>>().join(" "),
+        values: METRICS.iter().map(|metric| (metric.of)(&seen)).collect(),
+    })
+}
+
+/// The usual instruments, but for the compass: it deviates more.
+fn sensor_errors() -> SensorErrors {
+    let mut errors = SensorErrors::default();
+    errors.compass.heading_bias_deg = COMPASS_DEVIATION_DEG;
+    errors
+}

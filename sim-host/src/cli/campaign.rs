@@ -1,0 +1,145 @@
+//! `glider campaign`: a mission over many seeds, the autopilot beside a classical controller.
+
+use std::{fs, io::Write, num::NonZero, path::PathBuf, thread};
+
+use clap::ValueEnum;
+use serde::Serialize;
+use shared::{autopilot::Autopilot, device::RAD_PER_CDEG, mission::Mission, table::TrimTable};
+
+use super::{fly::refusal, progress};
+use crate::{
+    baseline::{Baseline, Turn, TurnSense},
+    campaign::{self, Campaign, Flyer, Tally},
+    flight::FlyingVehicle,
+    mission_file::MissionFile,
+    ocean::Ocean,
+    table::{Envelope, describe, generate},
+    vehicle::Vehicle,
+    whole_file,
+};
+
+/// Fastest steady current that a flight may meet, m/s; a glider makes half of one.
+const CURRENT_M_S: f64 = 3.0;
+
+#[derive(Debug, clap::Args)]
+pub(super) struct Args {
+    /// Path of a mission file, or the name of an embedded mission: default, fast-50, slow-50, slow-200, slow-1000
+    #[arg(default_value = "default")]
+    mission: String,
+    /// Path of a vehicle file, or the name of an embedded vehicle (default: the mission's)
+    #[arg(long, value_name = "VEHICLE")]
+    vehicle: Option<String>,
+    /// Where: as `glider fly` takes it; may be given several times
+    #[arg(long = "environment", value_name = "ENVIRONMENT", default_values_t = ["still".to_string()])]
+    environments: Vec<String>,
+    /// Vehicles to fly: seeds 1 to N
+    #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    seeds: u64,
+    /// Speed of a steady current from an unknown direction
+    #[arg(long, value_name = "M_S", default_value_t = 0.0, allow_negative_numbers = true)]
+    current: f64,
+    /// Who flies
+    #[arg(long, value_enum, default_value_t = Pilots::Both)]
+    pilot: Pilots,
+    /// Folder for campaign.csv and campaign.html
+    #[arg(long, value_name = "DIR", default_value = "campaign")]
+    out: PathBuf,
+    /// One JSON object instead of text
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Pilots {
+    Autopilot,
+    Baseline,
+    Both,
+}
+
+#[derive(Serialize)]
+struct Answer<'a> {
+    mission: &'a str,
+    vehicle: &'a str,
+    seeds: u64,
+    current_m_s: f64,
+    results: &'a [Tally],
+}
+
+pub(super) fn run(args: &Args) -> Result<(), String> {
+    if !(0.0..=CURRENT_M_S).contains(&args.current) {
+        return Err(format!("--current {}: a speed from 0 to {CURRENT_M_S} m/s", args.current));
+    }
+    let file = MissionFile::load(&args.mission).map_err(|error| error.to_string())?;
+    let vehicle = super::load_vehicle(args.vehicle.as_ref().unwrap_or(&file.vehicle))?;
+    FlyingVehicle::new(&vehicle)?;
+    let waters = args.environments.iter().map(|name| water(name, &vehicle, &file.mission));
+    let waters = waters.collect::<Result<Vec<_>, _>>()?;
+    let table_bytes = generate(&vehicle, &Envelope::default())?;
+    let table = TrimTable::parse(&table_bytes).map_err(|error| format!("trim table: {}", describe(&error)))?;
+    let pilots = pilots(args.pilot, &table, &file)?;
+    fs::create_dir_all(&args.out).map_err(|error| format!("{}: {error}", args.out.display()))?;
+
+    let seeds = args.seeds;
+    let campaign =
+        Campaign { vehicle: &vehicle, file: &file, waters: &waters, pilots: &pilots, seeds, current_m_s: args.current };
+    let bar = progress::flights(seeds * (waters.len() * pilots.len()) as u64);
+    let threads = thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN);
+    let flown = campaign::run(&campaign, threads, |_| bar.inc(1))?;
+    bar.finish_and_clear();
+
+    let tallies = campaign::tallies(&flown);
+    let (csv, html) = (args.out.join("campaign.csv"), args.out.join("campaign.html"));
+    campaign::write_csv(&csv, &flown)?;
+    let title = title(args, &vehicle);
+    whole_file::write(&html, |out| writeln!(out, "{}", campaign::html(&title, &flown, &tallies)))?;
+    if args.json {
+        let (mission, vehicle) = (args.mission.as_str(), vehicle.name.as_str());
+        return super::print_json(&Answer { mission, vehicle, seeds, current_m_s: args.current, results: &tallies });
+    }
+    super::print(&format!("{title}\n\n{}\n{}\n{}", campaign::text(&tallies), csv.display(), html.display()))
+}
+
+fn title(args: &Args, vehicle: &Vehicle) -> String {
+    let current =
+        if args.current > 0.0 { format!(", an unknown current of {} m/s", args.current) } else { String::new() };
+    format!("{}, {}, seeds 1 to {}{current}", args.mission, vehicle.name, args.seeds)
+}
+
+/// A water by its name; one that is too shallow for the mission would say nothing about who flies.
+fn water(name: &str, vehicle: &Vehicle, mission: &Mission) -> Result<(String, Ocean), String> {
+    let ocean = Ocean::load(name, &vehicle.water).map_err(|error| error.to_string())?;
+    let dive_to_m = f64::from(mission.dive_to_mm) / 1e3;
+    match ocean.floor_depth_m(0.0, 0.0) {
+        Some(floor_m) if floor_m <= dive_to_m => {
+            Err(format!("{name}: the sea floor lies at {floor_m} m, and the mission dives to {dive_to_m} m"))
+        }
+        Some(_) | None => Ok((name.into(), ocean)),
+    }
+}
+
+fn pilots<'a>(who: Pilots, table: &TrimTable<'a>, file: &MissionFile) -> Result<Vec<Flyer<'a>>, String> {
+    // Also checks the mission, which the classical controller takes as it is.
+    let autopilot =
+        Autopilot::new(table, &file.mission, &file.parameters).map_err(|error| refusal(file, &error).to_string())?;
+    let sense = turn_sense(table, &file.mission);
+    let baseline = Baseline::new(table.vehicle(), &file.mission, &file.parameters, sense);
+    let both = [
+        (Pilots::Autopilot, Flyer::Autopilot(Box::new(autopilot))),
+        (Pilots::Baseline, Flyer::Baseline(Box::new(baseline))),
+    ];
+    Ok(both.into_iter().filter(|(pilot, _)| who == Pilots::Both || who == *pilot).map(|(_, flyer)| flyer).collect())
+}
+
+/// What a builder would tell the classical controller: which way the vehicle turns with the mass to the left.
+fn turn_sense(table: &TrimTable<'_>, mission: &Mission) -> TurnSense {
+    const MU_RAD: f32 = 0.5;
+    let turn = |path_angle_cdeg: i16, net_mass_g: i16| {
+        let path_angle_rad = f32::from(path_angle_cdeg) * RAD_PER_CDEG;
+        let glide = table.look_up(path_angle_rad, f32::from(net_mass_g) / 1e3, MU_RAD);
+        if glide.turn_rate_rad_s < 0.0 { Turn::Left } else { Turn::Right }
+    };
+    TurnSense {
+        dive: turn(mission.dive_path_angle_cdeg, mission.dive_net_mass_g),
+        climb: turn(mission.climb_path_angle_cdeg, mission.climb_net_mass_g),
+    }
+}

@@ -176,7 +176,10 @@ fn what_is_not_toml_is_one_line_too() {
     assert_eq!(mistake("name = \"x\"\nname = \"y\"\n"), "v.toml:2:1: duplicate key");
     let unreadable = Vehicle::load("no-such-vehicle").unwrap_err().to_string();
     assert!(unreadable.starts_with("no-such-vehicle: not a readable file ("), "{unreadable}");
-    assert!(unreadable.ends_with("), nor an embedded one (`slocum-paper`, `seawing`)"), "{unreadable}");
+    assert!(
+        unreadable.ends_with("), nor an embedded one (`slocum-paper`, `reversed-turn`, `seawing`)"),
+        "{unreadable}"
+    );
 }
 
 #[test]

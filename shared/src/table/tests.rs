@@ -21,12 +21,18 @@ fn vehicle() -> FlightVehicle {
         },
         working_depth_mm: 200_000,
         glide: GlideConstants {
+            mass_kg: 50.0,
             mass_u_kg: 55.0,
             mass_w_kg: 120.0,
             drag_zero: 2.0,
             drag_induced: 45.0 / (135.0 * 135.0),
             lift_zero: 0.0,
             lift_alpha: 135.0,
+            lift_rate: 0.0,
+            surge_coupling_kg_m: 0.0,
+            heave_coupling_kg_m: 0.0,
+            moving_mass_kg: 9.0,
+            turn_length_m: [3.0, 1.0],
         },
     }
 }

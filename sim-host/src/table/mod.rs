@@ -3,6 +3,7 @@
 mod constants;
 mod error;
 mod helices;
+mod lag;
 
 pub use constants::flight_vehicle;
 pub use error::{BOUND, InterpolationError, TableErrors};
@@ -47,7 +48,7 @@ impl Default for Envelope {
 /// size that flies is fine enough.
 pub fn generate(vehicle: &Vehicle, envelope: &Envelope) -> Result<Vec<u8>, String> {
     envelope.check()?;
-    let flight_vehicle = flight_vehicle(vehicle)?;
+    let flight_vehicle = flight_vehicle(vehicle, envelope)?;
     let solver = HelixSolver::new(vehicle);
     let sides = [1.0, -1.0].map(|sign| Side { vehicle, solver: &solver, sign });
     let [dive, climb] = envelope.grids(&[FEW_CELLS; 2], true);

@@ -18,6 +18,7 @@ use crate::toml_file::{self, FileError, Rule, Section};
 /// Vehicles that need no file: name, file it comes from, text.
 const EMBEDDED: &[(&str, &str, &str)] = &[
     ("slocum-paper", "vehicles/slocum-paper.toml", include_str!("../../vehicles/slocum-paper.toml")),
+    ("reversed-turn", "vehicles/reversed-turn.toml", include_str!("../../vehicles/reversed-turn.toml")),
     ("seawing", "vehicles/seawing.toml", include_str!("../../vehicles/seawing.toml")),
 ];
 

@@ -40,6 +40,7 @@ pub mod heading;
 pub mod math;
 pub mod mission;
 pub mod navigator;
+pub mod number;
 pub mod parameters;
 pub mod pitch;
 pub mod reduced;

@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 use crate::{
     device::{Attitude, GpsFix, MM_PER_M, Measurements, RAD_PER_CDEG, TICK_HZ, TICK_S, UM_PER_M},
     math,
-    reduced::{Drive, Reduced},
+    reduced::{Drive, Model, Motion},
     vehicle::FlightVehicle,
 };
 
@@ -34,7 +34,7 @@ pub struct Navigator {
     /// Tick of the last fresh attitude, once there was one.
     pub attitude_tick: Option<u32>,
     origin: Option<GpsFix>,
-    water: Reduced,
+    water: Motion<f32>,
     north_um: i64,
     east_um: i64,
 }
@@ -54,7 +54,7 @@ impl Default for Navigator {
             depth_tick: None,
             attitude_tick: None,
             origin: None,
-            water: Reduced::default(),
+            water: Motion::at_rest(),
             north_um: 0,
             east_um: 0,
         }
@@ -70,9 +70,9 @@ impl Navigator {
             self.attitude_tick = Some(tick);
         }
         if afloat {
-            self.water = Reduced::default();
+            self.water = Motion::at_rest();
         } else {
-            self.dead_reckon(vehicle, measurements.vbd_ul);
+            self.dead_reckon(vehicle, measurements);
         }
         if let Some(fix) = measurements.gps {
             self.take_fix(fix);
@@ -128,24 +128,27 @@ impl Navigator {
     fn do_without_pressure(&mut self, tick: u32, predicted_m: f32) {
         let silence_ticks = tick.saturating_sub(self.depth_tick.unwrap_or(0));
         if silence_ticks > SILENCE_TICKS {
-            let pitch_rad = f32::from(self.attitude.pitch_cdeg) * RAD_PER_CDEG;
-            self.depth_rate_m_s = self.water.w_m_s * math::cos(pitch_rad) - self.water.u_m_s * math::sin(pitch_rad);
+            let rad = |cdeg: i16| f32::from(cdeg) * RAD_PER_CDEG;
+            self.depth_rate_m_s = self.water.sink_rate_m_s(rad(self.attitude.pitch_cdeg), rad(self.attitude.roll_cdeg));
         }
         // Above the surface there is no depth.
         self.depth_m = if predicted_m > 0.0 { predicted_m } else { 0.0 };
     }
 
-    fn dead_reckon(&mut self, vehicle: &FlightVehicle, vbd_ul: i32) {
+    fn dead_reckon(&mut self, vehicle: &FlightVehicle, measurements: &Measurements) {
         let attitude = &self.attitude;
         let rad = |cdeg: i16| f32::from(cdeg) * RAD_PER_CDEG;
         let drive = Drive {
             pitch_rad: rad(attitude.pitch_cdeg),
+            roll_rad: rad(attitude.roll_cdeg),
             pitch_rate_rad_s: rad(attitude.pitch_rate_cdeg_s),
-            net_weight_n: vehicle.net_mass_kg(vbd_ul) * vehicle.gravity_m_s2,
+            r_px_m: measurements.r_px_um as f32 / UM_PER_M,
+            net_mass_kg: vehicle.net_mass_kg(measurements.vbd_ul),
+            // Nothing measures it; the vehicle is ballasted for the water that its file names.
+            density_ratio: 1.0,
         };
-        self.water = self.water.step(&vehicle.glide, &drive, TICK_S);
-        let to_inertial =
-            rotation(rad(attitude.roll_cdeg), drive.pitch_rad, f32::from(attitude.heading_cdeg) * RAD_PER_CDEG);
+        self.water = Model::new(&vehicle.glide, vehicle.gravity_m_s2, TICK_S).step(&self.water, &drive);
+        let to_inertial = rotation(drive.roll_rad, drive.pitch_rad, f32::from(attitude.heading_cdeg) * RAD_PER_CDEG);
         let velocity = to_inertial * Vector3::new(self.water.u_m_s, 0.0, self.water.w_m_s);
         let um = |metres_per_second: f32| i64::from(math::round_to_i32(metres_per_second * TICK_S * UM_PER_M));
         self.north_um = self.north_um.saturating_add(um(velocity.x));

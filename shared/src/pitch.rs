@@ -26,7 +26,7 @@ impl Steady {
     /// Pitch of the wings-level glide, rad.
     #[must_use]
     pub fn pitch_rad(&self, table: &TrimTable<'_>) -> f32 {
-        self.path_angle_rad + table.look_up(self.path_angle_rad, self.net_mass_kg, 0.0).alpha_rad
+        table.look_up(self.path_angle_rad, self.net_mass_kg, 0.0).pitch_rad
     }
 }
 
@@ -105,7 +105,7 @@ impl PitchLoop {
 fn slope_m_per_rad(table: &TrimTable<'_>, steady: &Steady) -> f32 {
     let at = |path_angle_rad: f32| {
         let glide = table.look_up(path_angle_rad, steady.net_mass_kg, 0.0);
-        (path_angle_rad + glide.alpha_rad, glide.r_px_m)
+        (glide.pitch_rad, glide.r_px_m)
     };
     // A step inwards at the table's edge would fold; both sides of the step then share the edge's value.
     let (pitch_low, r_low) = at(steady.path_angle_rad - SLOPE_STEP_RAD);

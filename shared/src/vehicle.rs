@@ -31,6 +31,13 @@ impl FlightVehicle {
         -self.density_kg_m3 * (vbd_ul as f32 / UL_PER_M3)
     }
 
+    /// Net mass in water of some density, the vehicle being neutral with `vbd_ul = 0` in that of `density_kg_m3`, kg.
+    #[must_use]
+    pub fn net_mass_in_kg(&self, vbd_ul: i32, density_kg_m3: f32) -> f32 {
+        let thinner = 1.0 - density_kg_m3 / self.density_kg_m3;
+        self.glide.mass_kg * thinner - density_kg_m3 * (vbd_ul as f32 / UL_PER_M3)
+    }
+
     /// Volume of the buoyancy device for a net mass given in g, µl.
     #[must_use]
     pub fn vbd_ul(&self, net_mass_g: i16) -> i32 {
@@ -81,21 +88,33 @@ impl Range {
     }
 }
 
-/// Constants of the wings-level reduced model (Fan & Woolsey, section 7 of the equations; K-form, per unit ½ρS folded in).
+/// Constants of the reduced model (K-form: ½ρS is folded in, at the density of the vehicle file).
 ///
-/// Lift is `(lift_zero + lift_alpha α) V²`, drag is `drag_zero V² + drag_induced L²/V²`, both in newtons with V in m/s.
+/// Lift is `(lift_zero + lift_alpha α + lift_rate q) V²`, drag is `drag_zero V² + drag_induced L²/V²`, both in newtons with V in m/s.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct GlideConstants {
+    /// Mass, kg.
+    pub mass_kg: f32,
     /// Mass with the added mass along b1, kg.
     pub mass_u_kg: f32,
     /// Mass with the added mass along b3, kg.
     pub mass_w_kg: f32,
     /// Drag at zero lift over V², N s²/m².
     pub drag_zero: f32,
-    /// Induced drag times V² over lift², s²/(N m²)⁻¹.
+    /// Induced drag times V² over lift², m²/(N s²).
     pub drag_induced: f32,
     /// Lift at zero angle of attack over V², N s²/m².
     pub lift_zero: f32,
     /// Lift slope over V², N s²/(m² rad).
     pub lift_alpha: f32,
+    /// Lift by pitch rate over V², N s²/m² per rad/s.
+    pub lift_rate: f32,
+    /// Forward momentum per pitch rate, kg m: masses below the centre of buoyancy, and added mass.
+    pub surge_coupling_kg_m: f32,
+    /// Upward momentum per pitch rate with the moving mass centred, kg m: masses forward of it, and added mass.
+    pub heave_coupling_kg_m: f32,
+    /// The moving mass, kg: its place adds to the upward momentum.
+    pub moving_mass_kg: f32,
+    /// Way through the water in which a turn sets in, on dives and on climbs, m.
+    pub turn_length_m: [f32; 2],
 }

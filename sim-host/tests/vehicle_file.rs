@@ -189,7 +189,7 @@ fn what_is_not_toml_is_one_line_too() {
     assert_eq!(mistake("name = \"x\"\nname = \"y\"\n"), "v.toml:2:1: duplicate key");
     let unreadable = Vehicle::load("no-such-vehicle").unwrap_err().to_string();
     assert!(unreadable.starts_with("no-such-vehicle: not a readable file ("), "{unreadable}");
-    let names = "`slocum-paper`, `from-geometry`, `slocum-deep`, `seawing`";
+    let names = "`slocum-paper`, `from-geometry`, `slocum-deep`, `reversed-turn`, `seawing`";
     assert!(unreadable.ends_with(&format!("), nor an embedded one ({names})")), "{unreadable}");
 }
 

@@ -6,7 +6,7 @@
 mod events;
 
 use crate::{
-    device::{Commands, Measurements, RAD_PER_CDEG, TICK_HZ},
+    device::{Commands, Measurements, RAD_PER_CDEG, TICK_HZ, UM_PER_M},
     heading::HeadingLoop,
     math,
     mission::{Event, Executive, Mission, Phase, Unflyable},
@@ -176,7 +176,10 @@ impl<'a> Autopilot<'a> {
         let pitch_cdeg = config.pitch_cdeg(&steady);
         let attitude = state.navigator.attitude;
         let trim = if steady.path_angle_rad < 0.0 { &mut state.dive_trim } else { &mut state.climb_trim };
-        if state.executive.phase != Phase::Surfacing {
+        let mu_rad = f32::from(measurements.mu_cdeg) * RAD_PER_CDEG;
+        let expected = config.table.look_up(steady.path_angle_rad, steady.net_mass_kg, mu_rad);
+        // Beyond the table its axial position is only the edge's: an error there teaches nothing about the trim.
+        if state.executive.phase != Phase::Surfacing && !expected.saturated {
             let pitch_error_cdeg = pitch_cdeg.saturating_sub(i32::from(attitude.pitch_cdeg));
             config.pitch.update(trim, &config.table, &steady, ticks_in_phase, pitch_error_cdeg);
         }
@@ -188,8 +191,7 @@ impl<'a> Autopilot<'a> {
             state.mu_target_cdeg =
                 config.heading.mu_cdeg(&config.table, &steady, ticks_in_phase, error_cdeg, state.mu_target_cdeg);
         }
-        let mu_rad = f32::from(measurements.mu_cdeg) * RAD_PER_CDEG;
-        let r_px_um = PitchLoop::feed_forward_um(&config.table, &steady, mu_rad).saturating_add(trim_um);
+        let r_px_um = math::round_to_i32(expected.r_px_m * UM_PER_M).saturating_add(trim_um);
         Targets { r_px_um, mu_cdeg: state.mu_target_cdeg, vbd_ul, pitch_cdeg, heading_cdeg }
     }
 

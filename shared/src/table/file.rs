@@ -6,7 +6,7 @@ use super::{Grid, Node, QUANTITIES, TrimTable};
 use crate::{math, vehicle::FlightVehicle, wire::crc32};
 
 /// Version of the file format.
-pub const VERSION: u16 = 1;
+pub const VERSION: u16 = 2;
 /// What a stored value goes up to.
 pub(super) const FULL_SCALE: f32 = 32_767.0;
 
@@ -21,6 +21,8 @@ pub struct Header {
     version: u16,
     /// The vehicle that the table was generated for.
     pub vehicle: FlightVehicle,
+    /// Whether its left mirrors its right, so that only `mu` ≥ 0 is stored.
+    pub symmetric: bool,
     /// Path angle < 0, net mass > 0.
     pub dive: Grid,
     /// Path angle > 0, net mass < 0.
@@ -30,8 +32,8 @@ pub struct Header {
 impl Header {
     /// Describes a table about to be written.
     #[must_use]
-    pub const fn new(vehicle: FlightVehicle, dive: Grid, climb: Grid) -> Self {
-        Self { magic: MAGIC, version: VERSION, vehicle, dive, climb }
+    pub const fn new(vehicle: FlightVehicle, symmetric: bool, dive: Grid, climb: Grid) -> Self {
+        Self { magic: MAGIC, version: VERSION, vehicle, symmetric, dive, climb }
     }
 }
 

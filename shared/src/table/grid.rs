@@ -44,14 +44,16 @@ impl Axis {
 }
 
 /// One side of the table: dives or climbs.
+///
+/// Steady flight is smooth in these coordinates: a flat path and a light vehicle, where it changes fastest, get the most nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Grid {
-    /// Path angle, rad.
-    pub path_angle_rad: Axis,
-    /// Square root of |net mass|, √kg.
-    pub root_net_mass: Axis,
-    /// Sine of the mass's rotation.
-    pub sin_mu: Axis,
+    /// Root of |path angle|, √rad.
+    pub root_path_angle: Axis,
+    /// Fourth root of |net mass|, kg^¼.
+    pub fourth_root_net_mass: Axis,
+    /// The mass's rotation, rad; from 0 on if the vehicle is symmetric.
+    pub mu_rad: Axis,
     /// What a stored ±32767 stands for, per quantity.
     pub full_scale: [f32; QUANTITIES],
 }
@@ -60,7 +62,7 @@ impl Grid {
     /// Number of nodes.
     #[must_use]
     pub fn nodes(&self) -> usize {
-        [self.path_angle_rad, self.root_net_mass, self.sin_mu]
+        [self.root_path_angle, self.fourth_root_net_mass, self.mu_rad]
             .iter()
             .fold(1, |product, axis| usize::from(axis.count).saturating_mul(product))
     }
@@ -70,38 +72,36 @@ impl Grid {
     }
 
     pub(super) fn is_sound(&self) -> bool {
-        self.path_angle_rad.is_sound()
-            && self.root_net_mass.is_sound()
-            && self.root_net_mass.first > 0.0
-            && self.sin_mu.is_sound()
+        self.root_path_angle.is_sound()
+            && self.fourth_root_net_mass.is_sound()
+            && self.mu_rad.is_sound()
             && self.full_scale.iter().all(|scale| scale.is_finite())
     }
 
     /// Number of a node.
     pub(super) fn place(&self, i: usize, j: usize, k: usize) -> usize {
-        i.saturating_mul(usize::from(self.root_net_mass.count))
+        i.saturating_mul(usize::from(self.fourth_root_net_mass.count))
             .saturating_add(j)
-            .saturating_mul(usize::from(self.sin_mu.count))
+            .saturating_mul(usize::from(self.mu_rad.count))
             .saturating_add(k)
     }
 
     /// The axes in integers, rounded inwards; `sign` is that of the side's net mass.
     pub(super) fn envelope(&self, sign: f32) -> Envelope {
-        let inwards =
-            |low: f32, high: f32| Range { min: math::round_to_i32(low + 0.49), max: math::round_to_i32(high - 0.49) };
-        let gamma = self.path_angle_rad;
-        let mass = self.root_net_mass;
-        let edges = [mass.first, mass.last].map(|root| sign * root * root * GRAMS_PER_KG);
-        let [near, far] = edges;
-        // An edge that was meant to be whole may come out a rounding error short.
-        let slack = 0.01;
+        let cdeg = |root: f32| -sign * root * root / RAD_PER_CDEG;
+        let grams = |root: f32| sign * root * root * root * root * GRAMS_PER_KG;
+        let (path_angle, net_mass) = (self.root_path_angle, self.fourth_root_net_mass);
         Envelope {
-            path_angle_cdeg: inwards(gamma.first / RAD_PER_CDEG - slack, gamma.last / RAD_PER_CDEG + slack),
-            net_mass_g: if sign > 0.0 {
-                inwards(near - slack, far + slack)
-            } else {
-                inwards(far - slack, near + slack)
-            },
+            path_angle_cdeg: inwards(cdeg(path_angle.first), cdeg(path_angle.last)),
+            net_mass_g: inwards(grams(net_mass.first), grams(net_mass.last)),
         }
     }
+}
+
+/// The whole numbers between two edges, given in any order.
+fn inwards(one: f32, other: f32) -> Range {
+    /// An edge that was meant to be whole may come out a rounding error short.
+    const SLACK: f32 = 0.01;
+    let (low, high) = if one < other { (one, other) } else { (other, one) };
+    Range { min: math::round_to_i32(low + 0.5 - SLACK), max: math::round_to_i32(high - 0.5 + SLACK) }
 }

@@ -4,9 +4,12 @@
 //! postcard(Header) | nodes: i16 LE | CRC-32: u32 LE
 //! ```
 //!
-//! Each side (dive, climb) is a grid over axes on which steady flight is smooth: path angle, √|net mass|, sin `mu`.
+//! Each side (dive, climb) is a grid over axes on which steady flight is smooth: √|path angle|, ⁴√|net mass|, `mu`.
 //! A node holds [`QUANTITIES`] values, quantised to 16 bits; `mu` runs fastest, then net mass, then path angle.
 //! Speed and turn rate grow with √|net mass|, so a node stores them divided by it.
+//!
+//! A vehicle whose left mirrors its right needs only `mu` ≥ 0; its header says so. The generator chooses as many nodes as
+//! it takes to keep the interpolation within 0.5 % of speed, 0.2° of pitch and 2 % of turn rate.
 
 mod file;
 mod grid;
@@ -20,7 +23,7 @@ use crate::{
 };
 
 /// Values stored in a node, in the order of [`Node`]'s fields.
-pub const QUANTITIES: usize = 6;
+pub const QUANTITIES: usize = 7;
 
 const VALUE_BYTES: usize = 2;
 const NODE_BYTES: usize = QUANTITIES * VALUE_BYTES;
@@ -34,6 +37,8 @@ pub struct Node {
     pub speed_factor: f32,
     /// Angle of attack, rad.
     pub alpha_rad: f32,
+    /// Pitch beyond the path angle, rad: the angle of attack, with the wings level.
+    pub incidence_rad: f32,
     /// Roll, rad.
     pub roll_rad: f32,
     /// Turn rate beyond `turn_bias` over (√|net mass| sin `mu`), rad/s/√kg; its sign is the vehicle's sense of turn.
@@ -44,12 +49,25 @@ pub struct Node {
 
 impl Node {
     const fn to_array(self) -> [f32; QUANTITIES] {
-        [self.r_px_m, self.speed_factor, self.alpha_rad, self.roll_rad, self.turn_factor, self.turn_bias]
+        [
+            self.r_px_m,
+            self.speed_factor,
+            self.alpha_rad,
+            self.incidence_rad,
+            self.roll_rad,
+            self.turn_factor,
+            self.turn_bias,
+        ]
     }
 
     const fn from_array(values: [f32; QUANTITIES]) -> Self {
-        let [r_px_m, speed_factor, alpha_rad, roll_rad, turn_factor, turn_bias] = values;
-        Self { r_px_m, speed_factor, alpha_rad, roll_rad, turn_factor, turn_bias }
+        let [r_px_m, speed_factor, alpha_rad, incidence_rad, roll_rad, turn_factor, turn_bias] = values;
+        Self { r_px_m, speed_factor, alpha_rad, incidence_rad, roll_rad, turn_factor, turn_bias }
+    }
+
+    /// The same motion of a symmetric vehicle with left and right exchanged; its turn rate changes sign with sin `mu`.
+    const fn mirrored(self) -> Self {
+        Self { roll_rad: -self.roll_rad, turn_bias: -self.turn_bias, ..self }
     }
 }
 
@@ -62,6 +80,8 @@ pub struct Glide {
     pub speed_m_s: f32,
     /// Angle of attack, rad.
     pub alpha_rad: f32,
+    /// Pitch, rad.
+    pub pitch_rad: f32,
     /// Roll, rad.
     pub roll_rad: f32,
     /// Vertical speed, m/s, down positive.
@@ -132,21 +152,21 @@ impl TrimTable<'_> {
     #[must_use]
     pub fn look_up(&self, path_angle_rad: f32, net_mass_kg: f32, mu_rad: f32) -> Glide {
         let root = math::sqrt(math::abs(net_mass_kg));
-        let sin_mu = math::sin(mu_rad);
-        let (node, saturated) = self.interpolate(path_angle_rad, root, sin_mu);
+        let (node, saturated) = self.interpolate(path_angle_rad, net_mass_kg, mu_rad);
         let speed_m_s = node.speed_factor * root;
         Glide {
             r_px_m: node.r_px_m,
             speed_m_s,
             alpha_rad: node.alpha_rad,
+            pitch_rad: path_angle_rad + node.incidence_rad,
             roll_rad: node.roll_rad,
             sink_rate_m_s: -speed_m_s * math::sin(path_angle_rad),
-            turn_rate_rad_s: root * (node.turn_bias + node.turn_factor * sin_mu),
+            turn_rate_rad_s: root * (node.turn_bias + node.turn_factor * math::sin(mu_rad)),
             saturated,
         }
     }
 
-    /// The rotation of the mass that turns at `turn_rate_rad_s`, held to ±`limit_rad`, rad.
+    /// The rotation of the mass that turns at `turn_rate_rad_s`, held to ±`limit_rad` and to what the table covers, rad.
     ///
     /// `near_mu_rad` is where the mass is now: authority depends a little on the rotation itself.
     #[must_use]
@@ -159,25 +179,28 @@ impl TrimTable<'_> {
         limit_rad: f32,
     ) -> f32 {
         let root = math::sqrt(math::abs(net_mass_kg));
-        let limit = math::sin(math::clamp(limit_rad, 0.0, math::FRAC_PI_2));
-        let mut sin_mu = math::clamp(math::sin(near_mu_rad), -limit, limit);
+        let reach = self.side(path_angle_rad).0.mu_rad.last;
+        let limit = math::clamp(math::clamp(limit_rad, 0.0, reach), 0.0, math::FRAC_PI_2);
+        let mut mu_rad = math::clamp(near_mu_rad, -limit, limit);
         for _ in 0..2 {
-            let (node, _) = self.interpolate(path_angle_rad, root, sin_mu);
+            let (node, _) = self.interpolate(path_angle_rad, net_mass_kg, mu_rad);
             let wanted = (turn_rate_rad_s / root - node.turn_bias) / node.turn_factor;
-            sin_mu = math::clamp(math::finite_or(wanted, 0.0), -limit, limit);
+            mu_rad = math::clamp(math::asin(math::finite_or(wanted, 0.0)), -limit, limit);
         }
-        math::asin(sin_mu)
+        mu_rad
     }
 
-    fn interpolate(&self, path_angle_rad: f32, root_net_mass: f32, sin_mu: f32) -> (Node, bool) {
-        let (grid, nodes) = if path_angle_rad < 0.0 {
-            (&self.header.dive, self.dive_nodes)
-        } else {
-            (&self.header.climb, self.climb_nodes)
-        };
-        let (i, x, x_outside) = grid.path_angle_rad.find(path_angle_rad);
-        let (j, y, y_outside) = grid.root_net_mass.find(root_net_mass);
-        let (k, z, z_outside) = grid.sin_mu.find(sin_mu);
+    /// Dives or climbs, by the sign of the path angle.
+    const fn side(&self, path_angle_rad: f32) -> (&Grid, &[u8]) {
+        if path_angle_rad < 0.0 { (&self.header.dive, self.dive_nodes) } else { (&self.header.climb, self.climb_nodes) }
+    }
+
+    fn interpolate(&self, path_angle_rad: f32, net_mass_kg: f32, mu_rad: f32) -> (Node, bool) {
+        let (grid, nodes) = self.side(path_angle_rad);
+        let mirrored = self.header.symmetric && mu_rad < 0.0;
+        let (i, x, x_outside) = grid.root_path_angle.find(math::sqrt(math::abs(path_angle_rad)));
+        let (j, y, y_outside) = grid.fourth_root_net_mass.find(math::sqrt(math::sqrt(math::abs(net_mass_kg))));
+        let (k, z, z_outside) = grid.mu_rad.find(if mirrored { -mu_rad } else { mu_rad });
         let mut sums = [0.0; QUANTITIES];
         for (a, x) in [(0, 1.0 - x), (1, x)] {
             for (b, y) in [(0, 1.0 - y), (1, y)] {
@@ -190,7 +213,8 @@ impl TrimTable<'_> {
         for (sum, scale) in sums.iter_mut().zip(grid.full_scale) {
             *sum *= scale / file::FULL_SCALE;
         }
-        (Node::from_array(sums), x_outside || y_outside || z_outside)
+        let node = Node::from_array(sums);
+        (if mirrored { node.mirrored() } else { node }, x_outside || y_outside || z_outside)
     }
 }
 

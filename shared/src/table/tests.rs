@@ -21,67 +21,87 @@ fn vehicle() -> FlightVehicle {
         },
         working_depth_mm: 200_000,
         glide: GlideConstants {
+            mass_kg: 50.0,
             mass_u_kg: 55.0,
             mass_w_kg: 120.0,
             drag_zero: 2.0,
             drag_induced: 45.0 / (135.0 * 135.0),
             lift_zero: 0.0,
             lift_alpha: 135.0,
+            lift_rate: 0.0,
+            surge_coupling_kg_m: 0.0,
+            heave_coupling_kg_m: 0.0,
+            moving_mass_kg: 9.0,
+            turn_length_m: [3.0, 1.0],
         },
     }
 }
 
-/// A made-up vehicle whose nodes are linear in the axes, so that interpolation must be exact but for quantisation.
-/// It turns right with `mu` < 0 on dives and `mu` > 0 on climbs, like the paper's.
+/// A made-up vehicle that turns right with `mu` < 0 on dives and `mu` > 0 on climbs, like the paper's.
 pub(crate) fn file() -> Vec<u8> {
+    file_of(true)
+}
+
+/// Its nodes are linear in path angle and `mu`; left and right mirror each other, stored once or twice.
+fn file_of(symmetric: bool) -> Vec<u8> {
     let grid = |low: f32, high: f32| Grid {
-        path_angle_rad: Axis { first: low, last: high, count: 5 },
-        root_net_mass: Axis { first: 0.2, last: 0.8, count: 3 },
-        sin_mu: Axis { first: -0.9, last: 0.9, count: 3 },
+        root_path_angle: Axis { first: low.sqrt(), last: high.sqrt(), count: 32 },
+        fourth_root_net_mass: Axis { first: 0.04_f32.powf(0.25), last: 0.64_f32.powf(0.25), count: 2 },
+        mu_rad: Axis { first: if symmetric { 0.0 } else { -1.1 }, last: 1.1, count: 3 },
         full_scale: [0.0; QUANTITIES],
     };
-    let (dive, climb) = (grid(-0.6, -0.2), grid(0.2, 0.7));
-    let nodes = |grid: &Grid| {
+    let (dive, climb) = (grid(0.2, 0.6), grid(0.2, 0.7));
+    let nodes = |grid: &Grid, sign: f32| {
         let mut nodes = Vec::new();
-        for i in 0..grid.path_angle_rad.count {
-            for _ in 0..grid.root_net_mass.count {
-                for k in 0..grid.sin_mu.count {
-                    nodes.push(node(grid.path_angle_rad.at(i), grid.sin_mu.at(k)));
+        for i in 0..grid.root_path_angle.count {
+            for _ in 0..grid.fourth_root_net_mass.count {
+                for k in 0..grid.mu_rad.count {
+                    nodes.push(node(sign * grid.root_path_angle.at(i).powi(2), grid.mu_rad.at(k)));
                 }
             }
         }
         nodes
     };
-    let mut bytes = std::vec![0; 4096];
-    let header = Header::new(vehicle(), dive, climb);
-    let used = write(&header, &nodes(&dive), &nodes(&climb), &mut bytes).unwrap().len();
+    let mut bytes = std::vec![0; 8192];
+    let header = Header::new(vehicle(), symmetric, dive, climb);
+    let used = write(&header, &nodes(&dive, -1.0), &nodes(&climb, 1.0), &mut bytes).unwrap().len();
     bytes.truncate(used);
     bytes
 }
 
-fn node(path_angle_rad: f32, sin_mu: f32) -> Node {
+fn node(path_angle_rad: f32, mu_rad: f32) -> Node {
+    let side = path_angle_rad.signum();
     Node {
         r_px_m: -0.42 * path_angle_rad,
         speed_factor: 1.0 + 0.8 * math::abs(path_angle_rad),
-        alpha_rad: -0.03 * path_angle_rad.signum(),
-        roll_rad: 0.2 * sin_mu * path_angle_rad.signum(),
-        turn_factor: 0.03 * path_angle_rad.signum(),
+        alpha_rad: -0.03 * side,
+        incidence_rad: -0.03 * side,
+        roll_rad: 0.2 * mu_rad * side,
+        turn_factor: 0.03 * side,
         turn_bias: 0.0,
     }
 }
 
+/// A cell is 1/31 of √0.7 − √0.2 wide: over it x² is a quarter of that squared, 4e-5, off a straight line at most; the rest is
+/// quantisation.
 #[test]
-fn a_written_table_reads_back_within_its_quantisation() {
-    let file = file();
-    let table = TrimTable::parse(&file).unwrap();
-    for (gamma, mass, mu) in [(-0.45_f32, 0.25_f32, 0.3_f32), (-0.2, 0.6, -0.8), (0.33, -0.1, 0.5)] {
-        let glide = table.look_up(gamma, mass, mu);
-        let exact = node(gamma, mu.sin());
-        let root = mass.abs().sqrt();
-        assert!((glide.r_px_m - exact.r_px_m).abs() < 1e-5);
-        assert!((glide.speed_m_s - exact.speed_factor * root).abs() < 5e-5);
-        assert!((glide.turn_rate_rad_s - exact.turn_factor * root * mu.sin()).abs() < 1e-6);
-        assert!(!glide.saturated);
+fn a_written_table_reads_back_whether_one_side_is_stored_or_both() {
+    for symmetric in [true, false] {
+        let file = file_of(symmetric);
+        let table = TrimTable::parse(&file).unwrap();
+        for (gamma, mass, mu) in
+            [(-0.45_f32, 0.25_f32, 0.3_f32), (-0.2, 0.6, -0.8), (0.33, -0.1, 0.5), (0.6, -0.3, -1.0)]
+        {
+            let glide = table.look_up(gamma, mass, mu);
+            let exact = node(gamma, mu);
+            let root = mass.abs().sqrt();
+            assert!((glide.r_px_m - exact.r_px_m).abs() < 4e-5);
+            assert!((glide.speed_m_s - exact.speed_factor * root).abs() < 1e-4);
+            assert!((glide.pitch_rad - gamma - exact.incidence_rad).abs() < 1e-6);
+            assert!((glide.roll_rad - exact.roll_rad).abs() < 1e-5);
+            assert!((glide.turn_rate_rad_s - exact.turn_factor * root * mu.sin()).abs() < 1e-6);
+            assert!(!glide.saturated);
+        }
     }
 }
 
@@ -92,6 +112,12 @@ fn outside_the_envelope_it_saturates_and_says_so() {
     let beyond = table.look_up(-1.2, 0.25, 0.0);
     assert!(beyond.saturated);
     assert_eq!(beyond.r_px_m, table.look_up(-0.6, 0.25, 0.0).r_px_m);
+    for (gamma, mass, mu) in [(-0.1, 0.25, 0.0), (0.0, 0.25, 0.0), (0.4, 0.01, 0.0), (0.4, 0.0, 0.0), (0.4, 1.0, 0.0)] {
+        assert!(table.look_up(gamma, mass, mu).saturated, "{gamma} rad, {mass} kg");
+    }
+    for mu in [-1.5, 1.5, f32::NAN] {
+        assert!(table.look_up(-0.4, 0.25, mu).saturated, "{mu} rad");
+    }
 }
 
 #[test]
@@ -104,6 +130,8 @@ fn the_rotation_for_a_turn_gives_that_turn_with_the_vehicles_own_sense() {
         assert_eq!(mu > 0.0, gamma > 0.0);
     }
     assert!((table.mu_for_turn(-0.4, 0.25, 1.0, 0.0, 0.7) + 0.7).abs() < 1e-5, "held to the limit");
+    let widest = table.mu_for_turn(-0.4, 0.25, 1.0, 0.0, 1.5);
+    assert!((widest + 1.1).abs() < 1e-5, "held to what the table covers");
 }
 
 #[test]

@@ -60,15 +60,16 @@ pub(super) fn run(args: &Args) -> Result<(), String> {
     }
     let side = |name: &str, error: &InterpolationError| {
         format!(
-            "  {name}: speed {:.3} %, turn rate {:.2} %, angle of attack {:.3}°, r_px {:.2} mm",
+            "  {name}: speed {:.3} %, turn rate {:.2} %, pitch {:.3}°, angle of attack {:.3}°, r_px {:.2} mm",
             100.0 * error.speed,
             100.0 * error.turn_rate,
+            error.pitch_rad.to_degrees(),
             error.alpha_rad.to_degrees(),
             1e3 * error.r_px_m
         )
     };
     super::print(&format!(
-        "{}: {} bytes for {} ({:016x})\nlargest interpolation error against exact trim, midway between nodes\n{}\n{}",
+        "{}: {} bytes for {} ({:016x})\nlargest interpolation error against exact trim, in the middle of every cell\n{}\n{}",
         args.output.display(),
         file.len(),
         vehicle.name,

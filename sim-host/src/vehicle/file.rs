@@ -27,6 +27,7 @@ const EMBEDDED: &[(&str, &str, &str)] = &[
     ("slocum-paper", "vehicles/slocum-paper.toml", include_str!("../../vehicles/slocum-paper.toml")),
     ("from-geometry", "vehicles/from-geometry.toml", include_str!("../../vehicles/from-geometry.toml")),
     ("slocum-deep", "vehicles/slocum-deep.toml", include_str!("../../vehicles/slocum-deep.toml")),
+    ("reversed-turn", "vehicles/reversed-turn.toml", include_str!("../../vehicles/reversed-turn.toml")),
     ("seawing", "vehicles/seawing.toml", include_str!("../../vehicles/seawing.toml")),
 ];
 

@@ -1,5 +1,11 @@
 //! What several tests of the plant need.
 
+#[allow(dead_code, reason = "not every test file needs it")]
+mod interval;
+
+#[allow(unused_imports, reason = "not every test file needs it")]
+pub(crate) use interval::Interval;
+
 use nalgebra::{Matrix3, Vector3};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;

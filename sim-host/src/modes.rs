@@ -59,6 +59,15 @@ pub struct ModeSet {
     pub eigenvectors: [[[f64; 2]; 4]; 4],
     /// What each mode is, by its largest entries.
     pub names: [&'static str; 4],
+    /// −Re λ/|λ|: 1 decays without oscillation, below 0 it grows; none for λ = 0.
+    pub damping_ratio: [Option<f64>; 4],
+    /// 2π/|Im λ|, s; none without oscillation.
+    pub period_s: [Option<f64>; 4],
+    /// ln 2/−Re λ, s: time to half the amplitude, negative for the time to double it; none where it stays.
+    pub time_to_half_s: [Option<f64>; 4],
+    /// One row per eigenvalue: share of each state in the mode, |left × right eigenvector|, summing to 1; none where modes
+    /// coincide.
+    pub participation: Option<[[f64; 4]; 4]>,
 }
 
 /// The modes of a glide.
@@ -144,6 +153,13 @@ fn mode_set(
         eigenvalues: eigenvalues.map(pair),
         eigenvectors: eigenvectors.map(|vector| vector.map(pair)),
         names,
+        damping_ratio: eigenvalues.map(|value| finite(-value.re / value.norm())),
+        period_s: eigenvalues.map(|value| {
+            let oscillates = value.im.abs() > ROUNDING * size;
+            oscillates.then(|| std::f64::consts::TAU / value.im.abs())
+        }),
+        time_to_half_s: eigenvalues.map(|value| finite(std::f64::consts::LN_2 / -value.re)),
+        participation: participation(&eigenvectors),
     }
 }
 
@@ -164,6 +180,21 @@ fn largest(eigenvalues: &[Complex<f64>]) -> f64 {
 
 fn pair(value: Complex<f64>) -> [f64; 2] {
     [value.re, value.im]
+}
+
+fn finite(value: f64) -> Option<f64> {
+    value.is_finite().then_some(value)
+}
+
+/// Share of each state in each mode. The scales of the states cancel.
+fn participation(eigenvectors: &[[Complex<f64>; 4]; 4]) -> Option<[[f64; 4]; 4]> {
+    let right = Matrix4::from_fn(|state, mode| eigenvectors[mode][state]);
+    let left = right.try_inverse()?;
+    Some(std::array::from_fn(|mode| {
+        let sizes: [f64; 4] = std::array::from_fn(|state| (left[(mode, state)] * right[(state, mode)]).norm());
+        let sum: f64 = sizes.iter().sum();
+        sizes.map(|size| size / sum)
+    }))
 }
 
 /// The direction that A − λ takes to zero: its last right singular vector, scaled, the largest entry 1.

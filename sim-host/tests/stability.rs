@@ -216,3 +216,31 @@ fn a_turn_that_is_too_tight_is_refused_with_the_tightest() {
     );
     assert!(turns.authorities().right.reverses);
 }
+
+/// Damping, period and time to half say what the eigenvalue says; the states' shares in a mode sum to 1.
+#[test]
+fn the_figures_of_a_mode_follow_from_its_eigenvalue() {
+    let vehicle = slocum();
+    let both = modes(&vehicle, &glide_at(&vehicle, -35.0, Scale::Speed(0.77)), RollKinematics::Exact).unwrap();
+    for set in [both.longitudinal, both.lateral] {
+        for i in 0..4 {
+            let [re, im] = set.eigenvalues[i];
+            assert!((set.damping_ratio[i].unwrap() + re / re.hypot(im)).abs() < 1e-15);
+            // After the time to half, e^(re t) is a half.
+            assert!(((re * set.time_to_half_s[i].unwrap()).exp() - 0.5).abs() < 1e-14);
+            assert_eq!(set.period_s[i].is_some(), im != 0.0);
+            let shares = set.participation.unwrap()[i];
+            assert!((shares.iter().sum::<f64>() - 1.0).abs() < 1e-12);
+        }
+    }
+}
+
+/// Pitch rate rules the fastest longitudinal mode, speed the slowest.
+#[test]
+fn pitch_rate_and_speed_rule_their_modes() {
+    let vehicle = slocum();
+    let glide = glide_at(&vehicle, -35.0, Scale::Speed(0.77));
+    let shares = modes(&vehicle, &glide, RollKinematics::Exact).unwrap().longitudinal.participation.unwrap();
+    let largest = |mode: [f64; 4]| (0..4).max_by(|a, b| mode[*a].total_cmp(&mode[*b])).unwrap();
+    assert_eq!([largest(shares[0]), largest(shares[3])], [2, 0]);
+}

@@ -161,12 +161,27 @@ pub(super) fn run_modes(args: &ModesArgs) -> Result<(), String> {
 }
 
 fn describe_modes(title: &str, set: &ModeSet) -> String {
-    let mut lines =
-        vec![format!("{title:<14} eigenvalue, 1/s      {}", set.states.map(|state| format!("{state:>16}")).join(""))];
-    for ((value, vector), name) in set.eigenvalues.iter().zip(&set.eigenvectors).zip(set.names) {
-        let entries =
-            vector.map(|[re, im]| format!("{:>9.4}∠{:<6.1}", re.hypot(im), im.atan2(re).to_degrees())).join("");
-        lines.push(format!("  {:>10.4} {:>+9.4}i {entries}  {name}", value[0], value[1]));
+    let states = set.states.map(|state| format!("{state:>16}")).join("");
+    let mut lines = vec![format!("{title:<14} eigenvalue, 1/s      {states}   damping  period, s  half in, s")];
+    for i in 0..set.names.len() {
+        let [re, im] = set.eigenvalues[i];
+        let entries = set.eigenvectors[i]
+            .map(|[re, im]| format!("{:>9.4}∠{:<6.1}", re.hypot(im), im.atan2(re).to_degrees()))
+            .join("");
+        let figure = |value: Option<f64>, decimals: usize| {
+            value.map_or_else(|| "–".to_owned(), |value| format!("{value:.decimals$}"))
+        };
+        let [damping, period, half] =
+            [figure(set.damping_ratio[i], 3), figure(set.period_s[i], 2), figure(set.time_to_half_s[i], 2)];
+        lines
+            .push(format!("  {re:>10.4} {im:>+9.4}i {entries} {damping:>8} {period:>10} {half:>11}  {}", set.names[i]));
+    }
+    if let Some(participation) = set.participation {
+        lines.push(format!("  participation, %       {states}"));
+        for (shares, name) in participation.iter().zip(set.names) {
+            let shares = shares.map(|share| format!("{:>16.1}", 100.0 * share)).join("");
+            lines.push(format!("  {:<22} {shares}   {name}", ""));
+        }
     }
     lines.join("\n")
 }

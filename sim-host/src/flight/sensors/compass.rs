@@ -27,7 +27,7 @@ struct Disturbance {
 impl Disturbance {
     fn ut(&self, state: &State<f64>) -> Vector3<f64> {
         // What turns with the battery, less what was there when it hung straight down.
-        let (sin, cos) = state.mu_rad.sin_cos();
+        let (sin, cos) = libm::sincos(state.mu_rad);
         let turned = Vector3::new(
             0.0,
             (cos - 1.0) * self.turning.y - sin * self.turning.z,
@@ -77,11 +77,11 @@ impl Compass {
     /// Magnetic error of the tilt-compensated heading, rad: the field that is too much, levelled, beside the Earth's.
     fn heading_error_rad(&self, state: &State<f64>, euler: &Vector3<f64>) -> f64 {
         let field = self.disturbance.ut(state);
-        let ((sin_roll, cos_roll), (sin_pitch, cos_pitch)) = (euler.x.sin_cos(), euler.y.sin_cos());
+        let ((sin_roll, cos_roll), (sin_pitch, cos_pitch)) = (libm::sincos(euler.x), libm::sincos(euler.y));
         let below = sin_roll * field.y + cos_roll * field.z;
         let ahead = cos_pitch * field.x + sin_pitch * below;
         let right = cos_roll * field.y - sin_roll * field.z;
-        let (sin, cos) = euler.z.sin_cos();
+        let (sin, cos) = libm::sincos(euler.z);
         let horizontal = self.errors.earth_ut;
         let (north_ahead, north_right) = (horizontal * cos + ahead, right - horizontal * sin);
         shortest((-north_right).atan2(north_ahead) - euler.z)

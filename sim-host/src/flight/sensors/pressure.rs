@@ -45,7 +45,7 @@ impl PressureSensor {
 
 /// What a first-order lag takes up in a tick.
 pub(super) fn share(time_constant_s: f64) -> f64 {
-    if time_constant_s > 0.0 { 1.0 - (-TICK_S / time_constant_s).exp() } else { 1.0 }
+    if time_constant_s > 0.0 { 1.0 - libm::exp(-TICK_S / time_constant_s) } else { 1.0 }
 }
 
 #[cfg(test)]

@@ -89,8 +89,8 @@ fn under_water(tick: u32) -> Measurements {
         r_px_um: 100_000,
         mu_cdeg: 10,
         vbd_ul: -250_000,
-        battery_mv: 14_900,
-        gps: None,
+        battery_mv: Some(14_900),
+        ..Measurements::silent()
     }
 }
 

@@ -1,6 +1,9 @@
 //! Figures 12 to 15: root loci, and what sections 5.2 and 6 say of them.
 
-use super::comparison::{Reading, Trend};
+use super::{
+    Reproduction,
+    comparison::{Reading, Trend},
+};
 use crate::{
     chart::{Figure, Line, Mark, Panel, Place, Scale as Axis, Stroke},
     coefficients::{Anchoring, Parameter, Study},
@@ -72,9 +75,8 @@ const STUDIES: [Study4; 4] = [
 ///
 /// # Errors
 /// One line if a shape on the way is impossible or does not glide.
-pub fn reproduce(vehicle: &Vehicle) -> Result<(Vec<(String, Figure)>, Vec<Trend>), String> {
-    let mut figures = Vec::new();
-    let mut trends = Vec::new();
+pub fn reproduce(vehicle: &Vehicle) -> Result<Reproduction, String> {
+    let mut all = Reproduction::default();
     for study in &STUDIES {
         let anchored = study.loci(vehicle, Anchoring::Anchored)?;
         let readings =
@@ -88,10 +90,10 @@ pub fn reproduce(vehicle: &Vehicle) -> Result<(Vec<(String, Figure)>, Vec<Trend>
                 })
                 .collect();
         let panels = anchored.iter().zip(CONDITIONS).map(|(locus, (condition, _))| panel(condition, locus)).collect();
-        figures.push((study.figure.to_owned(), Figure { title: study.title.into(), columns: 2, panels }));
-        trends.push(Trend { place: format!("5.2, 6 ({})", study.figure), says: study.says.into(), readings });
+        all.figures.push((study.figure.to_owned(), Figure { title: study.title.into(), columns: 2, panels }));
+        all.trends.push(Trend { place: format!("5.2, 6 ({})", study.figure), says: study.says.into(), readings });
     }
-    Ok((figures, trends))
+    Ok(all)
 }
 
 fn name(anchoring: Anchoring) -> &'static str {

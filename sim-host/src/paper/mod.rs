@@ -27,7 +27,7 @@ const REMARKS: [&str; 6] = [
 ];
 
 /// Everything that was drawn and compared.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Reproduction {
     /// Figures by their file names.
     pub figures: Vec<(String, Figure)>,
@@ -42,14 +42,14 @@ pub struct Reproduction {
 /// # Errors
 /// One line that says which study the vehicle does not allow.
 pub fn reproduce(vehicle: &Vehicle) -> Result<Reproduction, String> {
-    let (mut figures, mut rows, mut trends) = performance::reproduce(vehicle)?;
-    let (turning, turning_trends) = turning::reproduce(vehicle)?;
-    let (loci, loci_trends) = loci::reproduce(vehicle)?;
-    figures.push(("fig11".to_owned(), turning));
-    figures.extend(loci);
-    rows.extend(tables::compare(vehicle)?);
-    trends.extend(turning_trends.into_iter().chain(loci_trends));
-    Ok(Reproduction { figures, rows, trends })
+    let mut all = performance::reproduce(vehicle)?;
+    let tables = Reproduction { rows: tables::compare(vehicle)?, ..Reproduction::default() };
+    for part in [turning::reproduce(vehicle)?, loci::reproduce(vehicle)?, tables] {
+        all.figures.extend(part.figures);
+        all.rows.extend(part.rows);
+        all.trends.extend(part.trends);
+    }
+    Ok(all)
 }
 
 impl Reproduction {

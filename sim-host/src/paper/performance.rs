@@ -1,6 +1,9 @@
 //! Figures 5 to 10: the polar, what a speed takes, and how far a battery goes; and what sections 4.2.1 and 6 say of them.
 
-use super::comparison::{Reading, Row, Trend};
+use super::{
+    Reproduction,
+    comparison::{Reading, Row, Trend},
+};
 use crate::{
     chart::{Figure, Line, Mark, Panel, Place, Scale, Stroke, contours},
     coefficients::{Anchoring, Parameter, Shape, Study},
@@ -30,11 +33,14 @@ const POINTS: usize = 161;
 /// Points each way of Fig 10.
 const GRID: usize = 41;
 
+/// A quantity of an account.
+type OfAccount = fn(&Account) -> f64;
+
 /// The figures by their file names, printed values and trends.
 ///
 /// # Errors
 /// One line if the vehicle has no such glides.
-pub fn reproduce(vehicle: &Vehicle) -> Result<(Vec<(String, Figure)>, Vec<Row>, Vec<Trend>), String> {
+pub fn reproduce(vehicle: &Vehicle) -> Result<Reproduction, String> {
     let sizing = Sizing { study: Study { anchoring: Anchoring::Unanchored, ..Study::new(vehicle) } };
     let printed_polar = Polar::from(&vehicle.hydrodynamics);
     let figure = |title: &str, columns, panels: Vec<Panel>| Figure { title: title.into(), columns, panels };
@@ -81,7 +87,8 @@ pub fn reproduce(vehicle: &Vehicle) -> Result<(Vec<(String, Figure)>, Vec<Row>, 
             "(π/4) d² l ρ; 52 kg would be the neutral mass with a lung of 4 %",
         ),
     ];
-    Ok((figures.map(|(name, figure)| (name.to_owned(), figure)).into(), rows, trends(&sizing)?))
+    let figures = figures.map(|(name, figure)| (name.to_owned(), figure)).into();
+    Ok(Reproduction { figures, rows, trends: trends(&sizing)? })
 }
 
 fn named(panel: Panel, held: &str) -> Panel {
@@ -244,7 +251,7 @@ pub fn endurance(sizing: &Sizing<'_>) -> Vec<Panel> {
         })
         .collect();
     // Without the floor of N, which would set steps on every line.
-    let panels: [(&str, fn(&Account) -> f64, &[f64]); 3] = [
+    let panels: [(&str, OfAccount, &[f64]); 3] = [
         ("(a) dives", dives, &[20.0, 50.0, 100.0, 200.0, 500.0, 1_000.0, 2_000.0]),
         (
             "(b) range, km",
@@ -257,7 +264,7 @@ pub fn endurance(sizing: &Sizing<'_>) -> Vec<Panel> {
             &[0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0],
         ),
     ];
-    let panel = |(title, of, levels): (&str, fn(&Account) -> f64, &[f64])| {
+    let panel = |(title, of, levels): (&str, OfAccount, &[f64])| {
         let value = |i: usize, j: usize, real: bool| {
             let both: Option<&Endurance> = grid.get(j).and_then(|row| row.get(i)).and_then(Option::as_ref);
             let account =

@@ -1,7 +1,10 @@
 //! Figure 11: what a turn takes, over fin and dihedral, and the caveat that a turn which takes less roll suffers more from an
 //! error in roll.
 
-use super::comparison::{Reading, Trend};
+use super::{
+    Reproduction,
+    comparison::{Reading, Trend},
+};
 use crate::{
     chart::{Figure, Line, Mark, Panel, Place, Scale as Axis, Stroke},
     coefficients::{Anchoring, Parameter, Study},
@@ -17,6 +20,9 @@ const SCALE: Scale = Scale::Speed(0.77);
 const POINTS: usize = 121;
 /// A plot shows this many times the median size: a pole goes beyond every axis.
 const SHOWN: f64 = 8.0;
+
+/// One of the three sensitivities.
+type Part = fn(&Sensitivity) -> f64;
 
 struct Sweep {
     panel: &'static str,
@@ -67,7 +73,7 @@ struct Point {
 ///
 /// # Errors
 /// One line if a shape on the way is impossible or does not glide.
-pub fn reproduce(vehicle: &Vehicle) -> Result<(Figure, Vec<Trend>), String> {
+pub fn reproduce(vehicle: &Vehicle) -> Result<Reproduction, String> {
     let mut turning = Vec::new();
     let mut caveat = Vec::new();
     let mut trends = Vec::new();
@@ -82,7 +88,8 @@ pub fn reproduce(vehicle: &Vehicle) -> Result<(Figure, Vec<Trend>), String> {
     let title =
         "Fig 11  Per rad/s of turn rate, at γ −35° and 0.77 m/s; below, the turn rate's error per error in roll";
     let panels = turning.into_iter().chain(caveat).collect();
-    Ok((Figure { title: title.into(), columns: 3, panels }, trends))
+    let figure = Figure { title: title.into(), columns: 3, panels };
+    Ok(Reproduction { figures: vec![("fig11".to_owned(), figure)], rows: Vec::new(), trends })
 }
 
 impl Sweep {
@@ -112,8 +119,7 @@ impl Sweep {
     }
 
     fn panel(&self, points: &[Point]) -> Panel {
-        let quantities: [(&str, fn(&Sensitivity) -> f64); 3] =
-            [("μ₁", |s| s.mu_s), ("φ₁", |s| s.phi_s), ("β₁ × 10", |s| 10.0 * s.beta_s)];
+        let quantities: [(&str, Part); 3] = [("μ₁", |s| s.mu_s), ("φ₁", |s| s.phi_s), ("β₁ × 10", |s| 10.0 * s.beta_s)];
         let mut lines = Vec::new();
         for (colour, (name, quantity)) in quantities.into_iter().enumerate() {
             let exact = points.iter().map(|point| [point.value, quantity(&point.exact)]).collect();

@@ -8,6 +8,7 @@ use serde::Serialize;
 pub use crate::helix::Scale;
 use crate::{
     helix::{Helix, HelixSolver, Slope, Turn},
+    performance::{Polar, PolarPoint},
     plant::{Plant, State, quaternion_from_euler},
     vehicle::Vehicle,
 };
@@ -80,17 +81,18 @@ pub fn glide(vehicle: &Vehicle, condition: Condition, scale: Scale) -> Result<Gl
 /// # Errors
 /// As [`glide`].
 pub(crate) fn wings_level(vehicle: &Vehicle, condition: Condition, scale: Scale) -> Result<Glide, String> {
-    let hydro = &vehicle.hydrodynamics;
-    let lift_coefficient = match condition {
-        Condition::PathAngle(path_angle_rad) => lift_at_path_angle(vehicle, path_angle_rad)?,
-        Condition::MaxHorizontalSpeed => lift_at_max_horizontal_speed(hydro.c_d_zero, hydro.c_d_induced),
-        Condition::MinGlideAngle => (hydro.c_d_zero / hydro.c_d_induced).sqrt(),
+    let (hydro, polar) = (&vehicle.hydrodynamics, Polar::from(&vehicle.hydrodynamics));
+    let (point, path_angle_rad) = match condition {
+        Condition::PathAngle(path_angle_rad) => {
+            (polar.at(lift_at_path_angle(vehicle, path_angle_rad)?), path_angle_rad)
+        }
+        Condition::MaxHorizontalSpeed => (polar.max_horizontal_speed(), -polar.max_horizontal_speed().descent_rad),
+        Condition::MinGlideAngle => (polar.best_glide(), -polar.best_glide().descent_rad),
     };
-    let drag_coefficient = hydro.c_d_zero + hydro.c_d_induced * lift_coefficient * lift_coefficient;
-    let path_angle_rad = match condition {
-        Condition::PathAngle(path_angle_rad) => path_angle_rad,
-        Condition::MaxHorizontalSpeed | Condition::MinGlideAngle => -libm::atan2(drag_coefficient, lift_coefficient),
-    };
+    let PolarPoint { lift_coefficient, drag_coefficient, .. } = point;
+    if !lift_coefficient.is_finite() {
+        return Err(format!("{}: without induced drag there is no flattest glide", vehicle.name));
+    }
     let sinking = -path_angle_rad.signum();
     let (speed_m_s, net_mass_kg) =
         speed_and_net_mass(vehicle, libm::hypot(lift_coefficient, drag_coefficient), sinking, scale)?;
@@ -199,13 +201,6 @@ fn lift_at_path_angle(vehicle: &Vehicle, path_angle_rad: f64) -> Result<f64, Str
     let roots = [2.0 * hydro.c_d_zero / sum, sum / (2.0 * hydro.c_d_induced)];
     let size = |lift: &f64| (lift - hydro.c_l_zero).abs();
     Ok(if size(&roots[0]) <= size(&roots[1]) { roots[0] } else { roots[1] })
-}
-
-/// Section 6: maximises C_L/(C_L² + C_D²)^¾.
-fn lift_at_max_horizontal_speed(c_d_zero: f64, c_d_induced: f64) -> f64 {
-    let delta = 2.0 * c_d_induced * c_d_zero;
-    let r = -(1.0 + delta) + ((1.0 + delta) * (1.0 + delta) + 8.0 * delta * delta).sqrt();
-    (2.0 * r).sqrt() / (4.0 * c_d_induced)
 }
 
 /// ½ρV²S √(C_L² + C_D²) = |m̃| g.

@@ -58,6 +58,7 @@ pub mod plant;
 pub mod real;
 pub mod record;
 pub mod report;
+pub mod sensitivity;
 pub mod table;
 pub mod toml_file;
 pub mod trim;

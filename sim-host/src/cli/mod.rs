@@ -7,6 +7,7 @@ mod paper;
 mod polar;
 mod progress;
 mod schema;
+mod sensitivity;
 mod size;
 mod stability;
 mod table;
@@ -42,6 +43,8 @@ enum Command {
     Modes(stability::ModesArgs),
     /// Vary the shape: how the modes move, as root loci
     Locus(locus::Args),
+    /// Rank the geometry: exact derivatives of performance, modes and turning by every parameter
+    Sensitivity(sensitivity::Args),
     /// Reproduce every figure and table of the paper, side by side with what it prints
     Paper(paper::Args),
     /// Mark the drag polar: flattest glide and maximum horizontal speed
@@ -78,6 +81,7 @@ pub fn main() -> ExitCode {
         Command::Turn(args) => stability::turn(&args),
         Command::Modes(args) => stability::run_modes(&args),
         Command::Locus(args) => locus::run(&args),
+        Command::Sensitivity(args) => sensitivity::run(&args),
         Command::Paper(args) => paper::run(&args),
         Command::Polar(args) => polar::run(&args),
         Command::Size(args) => size::run(&args),

@@ -247,6 +247,23 @@ impl From<&Hydrodynamics> for Coefficients {
 }
 
 impl Coefficients {
+    /// In another scalar, without derivatives.
+    #[must_use]
+    pub fn lift<T: Real>(&self) -> Coefficients<T> {
+        let three = |values: [f64; 3]| values.map(T::constant);
+        Coefficients {
+            area_m2: T::constant(self.area_m2),
+            span_m: T::constant(self.span_m),
+            chord_m: T::constant(self.chord_m),
+            drag: self.drag.map(T::constant),
+            lift: three(self.lift),
+            side: three(self.side),
+            roll: three(self.roll),
+            pitch: three(self.pitch),
+            yaw: three(self.yaw),
+        }
+    }
+
     /// As a vehicle has them.
     #[must_use]
     pub fn hydrodynamics(&self, moment_frame: MomentFrame) -> Hydrodynamics {
@@ -276,6 +293,22 @@ impl Coefficients {
             c_n_p,
             c_n_r,
         }
+    }
+}
+
+impl From<&AddedMass> for AddedMassOf<f64> {
+    fn from(a: &AddedMass) -> Self {
+        Self { mass_kg: a.mass_kg, inertia_kg_m2: a.inertia_kg_m2, coupling_kg_m: a.coupling_kg_m }
+    }
+}
+
+impl AddedMassOf<f64> {
+    /// In another scalar, without derivatives.
+    #[must_use]
+    pub fn lift<T: Real>(&self) -> AddedMassOf<T> {
+        let [mass_kg, inertia_kg_m2, coupling_kg_m] =
+            [self.mass_kg, self.inertia_kg_m2, self.coupling_kg_m].map(|matrix| matrix.map(T::constant));
+        AddedMassOf { mass_kg, inertia_kg_m2, coupling_kg_m }
     }
 }
 

@@ -35,6 +35,8 @@
 //! | polar, eqs (10)–(13), (17) and the ideal range, against searches and as printed | `tests/performance.rs` | 1e-9; 1e-12: rounding |
 //! | a realistic yo against the flown one | `tests/performance.rs` | 1 %: noise, an apogee that is not symmetric |
 //! | the paper's trends with geometry, and where they do not hold | `tests/trends.rs` | sign |
+//! | sensitivities by nested dual numbers against central differences of everything anew | `tests/sensitivity.rs` | the differences' own error |
+//! | the best geometry: the paper's conclusions, limits kept, the same bits, its file reads back | `tests/design.rs` | a bound reached; 1e-12 |
 //! | Seawing's published spiral | `tests/seawing.rs` | 2 %: published digits, another drag law |
 
 pub mod baseline;
@@ -42,6 +44,7 @@ pub mod campaign;
 pub mod chart;
 pub mod cli;
 pub mod coefficients;
+pub mod design;
 pub mod draw;
 pub mod eval;
 pub mod faults_file;
@@ -60,6 +63,7 @@ pub mod plant;
 pub mod real;
 pub mod record;
 pub mod report;
+pub mod sensitivity;
 pub mod table;
 pub mod toml_file;
 pub mod trim;

@@ -5,10 +5,11 @@
 //! then an approximation, whose size is told, beside the eigenvalues of the whole.
 
 use nalgebra::{Complex, Const, Matrix4, SMatrix, Vector3, Vector4};
-use num_dual::DualSVec64;
+use num_dual::{DualNum, DualSVec, DualSVec64};
 use serde::Serialize;
 
 use crate::{
+    helix::Helix,
     plant::{Plant, State, quaternion_from_euler},
     real::Real,
     trim::Glide,
@@ -19,8 +20,6 @@ use crate::{
 const TABLE_LENGTH_M: f64 = 1.8;
 /// Parts of an eigenvalue below this share of the largest are rounding.
 const ROUNDING: f64 = 1e-9;
-
-type Dual = DualSVec64<8>;
 
 /// The kinematics of roll.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -75,7 +74,7 @@ pub struct ModeSet {
 /// # Errors
 /// One line if numbers overflow: a speed that no vehicle has.
 pub fn modes(vehicle: &Vehicle, glide: &Glide, roll: RollKinematics) -> Result<Modes, String> {
-    let jacobian = jacobian(vehicle, glide, roll);
+    let jacobian = jacobian(&Plant::<DualSVec64<8>>::new(vehicle), &Helix::from(glide), roll);
     if jacobian.iter().any(|entry| !entry.is_finite()) {
         return Err(format!("{}: no finite linearisation at {:e} m/s", vehicle.name, glide.speed_m_s));
     }
@@ -107,30 +106,34 @@ pub fn modes(vehicle: &Vehicle, glide: &Glide, roll: RollKinematics) -> Result<M
 }
 
 /// Derivative of (u̇, ẇ, q̇, θ̇, v̇, ṗ, ṙ, φ̇) by (u, w, q, θ, v, p, r, φ).
-fn jacobian(vehicle: &Vehicle, glide: &Glide, roll: RollKinematics) -> SMatrix<f64, 8, 8> {
-    let plant = Plant::<Dual>::new(vehicle);
-    let trim = glide.state();
-    let along = |value: f64, place: usize| Dual::from_re(value).derivative(place);
-    let velocity = trim.velocity_m_s;
-    let [u, w, q, v, p, r] =
-        [(velocity.x, 0), (velocity.z, 1), (0.0, 2), (velocity.y, 4), (0.0, 5), (0.0, 6)].map(|(x, i)| along(x, i));
-    let (theta, phi) = (along(glide.pitch_rad, 3), along(glide.phi_rad, 7));
+pub(crate) fn jacobian<T: Real + DualNum>(
+    plant: &Plant<DualSVec<T, 8>>,
+    trim: &Helix<T>,
+    roll: RollKinematics,
+) -> SMatrix<T, 8, 8> {
+    let constant = DualSVec::<T, 8>::from_re;
+    let (none, zero) = (T::constant(0.0), constant(T::constant(0.0)));
+    let velocity = trim.velocity_m_s();
+    let [u, w, q, v, p, r] = [(velocity.x, 0), (velocity.z, 1), (none, 2), (velocity.y, 4), (none, 5), (none, 6)]
+        .map(|(value, place)| constant(value).derivative(place));
+    let (theta, phi) = (constant(trim.pitch_rad).derivative(3), constant(trim.roll_rad).derivative(7));
     let state = State {
-        quaternion: quaternion_from_euler(&Vector3::new(phi, theta, Dual::constant(0.0))),
+        quaternion: quaternion_from_euler(&Vector3::new(phi, theta, zero)),
         velocity_m_s: Vector3::new(u, v, w),
         rate_rad_s: Vector3::new(p, q, r),
-        r_px_m: Dual::constant(glide.r_px_m),
-        mu_rad: Dual::constant(glide.mu_rad),
-        ..State::at_rest(Dual::constant(glide.displaced_volume_m3))
+        r_px_m: constant(trim.r_px_m),
+        mu_rad: constant(trim.mu_rad),
+        ..State::at_rest(plant.displaced_volume_m3(constant(trim.net_mass_kg)))
     };
-    let rates = plant.derivative_driven(&state, Dual::constant(0.0), &plant.still());
-    let across = q * phi.sin() + r * phi.cos();
+    let rates = plant.derivative_driven(&state, zero, &plant.still());
+    let [sin_phi, cos_phi, sin_theta, cos_theta] = [Real::sin(phi), Real::cos(phi), Real::sin(theta), Real::cos(theta)];
+    let across = q * sin_phi + r * cos_phi;
     let roll_rate = match roll {
-        RollKinematics::Exact => p + across * theta.sin() / theta.cos(),
+        RollKinematics::Exact => p + across * sin_theta / cos_theta,
         RollKinematics::Paper => p,
     };
     let (dv, dw) = (rates.velocity_m_s, rates.rate_rad_s);
-    let rows = [dv.x, dv.z, dw.y, q * phi.cos() - r * phi.sin(), dv.y, dw.x, dw.z, roll_rate];
+    let rows = [dv.x, dv.z, dw.y, q * cos_phi - r * sin_phi, dv.y, dw.x, dw.z, roll_rate];
     SMatrix::from_fn(|i, j| rows[i].eps.unwrap_generic(Const::<8>, Const::<1>)[j])
 }
 
@@ -197,11 +200,16 @@ fn participation(eigenvectors: &[[Complex<f64>; 4]; 4]) -> Option<[[f64; 4]; 4]>
     }))
 }
 
-/// The direction that A − λ takes to zero: its last right singular vector, scaled, the largest entry 1.
-fn eigenvector(matrix: &Matrix4<f64>, value: Complex<f64>, scales: [f64; 4]) -> [Complex<f64>; 4] {
+/// The direction of length 1 that A − λ takes to zero: its last right singular vector.
+pub(crate) fn null_vector(matrix: &Matrix4<f64>, value: Complex<f64>) -> Vector4<Complex<f64>> {
     let shifted = matrix.map(|entry| Complex::new(entry, 0.0)) - Matrix4::from_diagonal_element(value);
     let svd = shifted.svd(false, true);
-    let null = svd.v_t.map_or_else(Vector4::zeros, |v_t| v_t.row(svd.singular_values.imin()).adjoint());
+    svd.v_t.map_or_else(Vector4::zeros, |v_t| v_t.row(svd.singular_values.imin()).adjoint())
+}
+
+/// An eigenvector, scaled, the largest entry 1.
+fn eigenvector(matrix: &Matrix4<f64>, value: Complex<f64>, scales: [f64; 4]) -> [Complex<f64>; 4] {
+    let null = null_vector(matrix, value);
     let scaled: [Complex<f64>; 4] = std::array::from_fn(|i| null[i] * scales[i]);
     let largest = scaled.iter().copied().fold(Complex::new(0.0, 0.0), |a, b| if b.norm() > a.norm() { b } else { a });
     scaled.map(|entry| entry / largest)

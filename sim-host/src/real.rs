@@ -3,7 +3,7 @@
 use std::ops::Neg;
 
 use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign, Scalar};
-use num_dual::DualSVec64;
+use num_dual::{DualNum, DualSVec};
 
 /// A real number, or something that computes like one.
 ///
@@ -70,40 +70,41 @@ impl Real for f64 {
     }
 }
 
-impl<const N: usize> Real for DualSVec64<N> {
+/// Nests: a dual number of dual numbers carries second derivatives.
+impl<T: Real + DualNum, const N: usize> Real for DualSVec<T, N> {
     fn constant(value: f64) -> Self {
-        Self::from_re(value)
+        Self::from_re(T::constant(value))
     }
     fn value(&self) -> f64 {
-        self.re
+        self.re.value()
     }
     fn sqrt(self) -> Self {
-        let root = self.re.sqrt();
-        Self::new(root, self.eps * (0.5 / root))
+        let root = Real::sqrt(self.re);
+        Self::new(root, self.eps * (T::constant(0.5) / root))
     }
     fn sin(self) -> Self {
-        Self::new(libm::sin(self.re), self.eps * libm::cos(self.re))
+        Self::new(Real::sin(self.re), self.eps * Real::cos(self.re))
     }
     fn cos(self) -> Self {
-        Self::new(libm::cos(self.re), self.eps * -libm::sin(self.re))
+        Self::new(Real::cos(self.re), self.eps * -Real::sin(self.re))
     }
     fn atan2(self, x: Self) -> Self {
         let square = self.re * self.re + x.re * x.re;
-        Self::new(libm::atan2(self.re, x.re), self.eps * (x.re / square) - x.eps * (self.re / square))
+        Self::new(Real::atan2(self.re, x.re), self.eps * (x.re / square) - x.eps * (self.re / square))
     }
     fn ln(self) -> Self {
-        Self::new(libm::log(self.re), self.eps * (1.0 / self.re))
+        Self::new(Real::ln(self.re), self.eps * (T::constant(1.0) / self.re))
     }
     fn powf(self, exponent: f64) -> Self {
-        let slope = exponent * libm::pow(self.re, exponent - 1.0);
-        Self::new(libm::pow(self.re, exponent), self.eps * slope)
+        let slope = T::constant(exponent) * Real::powf(self.re, exponent - 1.0);
+        Self::new(Real::powf(self.re, exponent), self.eps * slope)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use num_dual::DualNum;
+    use num_dual::DualSVec64;
 
     /// Our own chain rules against num-dual's.
     #[test]
@@ -120,6 +121,37 @@ mod tests {
         let both = |dual: DualSVec64<2>| dual.eps.unwrap_generic(nalgebra::Const::<2>, nalgebra::Const::<1>);
         for (ours, theirs) in pairs {
             assert!((ours.re - theirs.re).abs() < 1e-15 && (both(ours) - both(theirs)).amax() < 1e-15);
+        }
+    }
+
+    /// Second derivatives of the same: ours of ours against the library's hyper-dual numbers.
+    #[test]
+    fn nested_numbers_carry_the_second_derivatives_of_the_library() {
+        use num_dual::{Derivative, HyperDual64};
+        let nested = |re: f64, inner: f64, outer: f64| {
+            let inner = DualSVec64::<1>::new(re, Derivative::some(nalgebra::SVector::from([inner])));
+            let outer = nalgebra::SVector::from([DualSVec64::<1>::from_re(outer)]);
+            DualSVec::<DualSVec64<1>, 1>::new(inner, Derivative::some(outer))
+        };
+        let second = |value: DualSVec<DualSVec64<1>, 1>| {
+            let [first] = value.eps.unwrap_generic(nalgebra::U1, nalgebra::U1).into();
+            let first: DualSVec64<1> = first;
+            first.eps.unwrap_generic(nalgebra::U1, nalgebra::U1)[0]
+        };
+        let ([x, y], [u, v]) = (
+            [nested(0.7, 1.1, 0.4), nested(-1.3, 0.3, 2.0)],
+            [HyperDual64::new(0.7, 1.1, 0.4, 0.0), HyperDual64::new(-1.3, 0.3, 2.0, 0.0)],
+        );
+        let pairs = [
+            (Real::sqrt(x), DualNum::sqrt(&u)),
+            (Real::sin(x * y), DualNum::sin(&(u * v))),
+            (Real::cos(x * y), DualNum::cos(&(u * v))),
+            (Real::atan2(y, x), DualNum::atan2(&v, u)),
+            (Real::ln(x * x * x), DualNum::ln(&(u * u * u))),
+            (Real::powf(x, 1.5), DualNum::powf(&u, 1.5)),
+        ];
+        for (ours, theirs) in pairs {
+            assert!((second(ours) - theirs.eps1eps2).abs() < 1e-14, "{} {}", second(ours), theirs.eps1eps2);
         }
     }
 }

@@ -61,6 +61,16 @@ pub struct Authorities {
     pub left: Authority,
 }
 
+/// The ends of a walk to one side.
+struct Farthest {
+    /// Where the turn rate is largest.
+    end: Helix,
+    /// Whether the response reverses there.
+    reverses: bool,
+    /// The same within the mass's travel.
+    within: Helix,
+}
+
 /// A branch of steady turns that starts at a straight glide.
 #[derive(Clone, Debug)]
 pub struct Turns<'a> {
@@ -153,7 +163,28 @@ impl<'a> Turns<'a> {
         })
     }
 
+    /// The straight glide that the turns start at.
+    pub(crate) fn straight(&self) -> &Helix {
+        &self.straight
+    }
+
+    /// The fastest right turn within the mass's travel.
+    #[must_use]
+    pub fn fastest_right(&self) -> Helix {
+        self.farthest(self.sense()).within
+    }
+
     fn authority(&self, way: f64) -> Authority {
+        let Farthest { end, reverses, within } = self.farthest(way);
+        Authority {
+            largest_turn_rate_rad_s: end.turn_rate_rad_s,
+            mu_rad: end.mu_rad,
+            reverses,
+            within_travel_rad_s: within.turn_rate_rad_s,
+        }
+    }
+
+    fn farthest(&self, way: f64) -> Farthest {
         let travel_rad = self.vehicle.moving_mass.roll_deg.map(f64::to_radians);
         let inside = |helix: &Helix| (travel_rad[0]..=travel_rad[1]).contains(&helix.mu_rad);
         let (mut last, mut within) = (self.straight, self.straight);
@@ -169,12 +200,7 @@ impl<'a> Turns<'a> {
         } else if let Some(stop) = self.solver.step(&within, self.slope, Turn::Mu(travel_rad[usize::from(way > 0.0)])) {
             within = stop;
         }
-        Authority {
-            largest_turn_rate_rad_s: end.turn_rate_rad_s,
-            mu_rad: end.mu_rad,
-            reverses,
-            within_travel_rad_s: within.turn_rate_rad_s,
-        }
+        Farthest { end, reverses, within }
     }
 
     /// Where the turn rate is largest, between the last step of a walk and one step beyond.

@@ -134,9 +134,15 @@ mod tests {
 
     /// All sizes and signs: every power of two, what is beside it, and something in between.
     fn numbers() -> Vec<Fixed> {
-        let sizes =
-            (0..31).flat_map(|bits| [1_i32 << bits, (1 << bits) - 1, (1_i32 << bits) | 0x2a_aaaa >> (31 - bits)]);
-        sizes.chain([i32::MAX]).flat_map(|size| [Fixed(size), Fixed(-size)]).chain([Fixed(i32::MIN)]).collect()
+        let sizes = (0..31).rev().zip(0..31).flat_map(|(rest, bits)| {
+            let power = 1_i32 << bits;
+            [power, power.wrapping_sub(1), power | 0x2a_aaaa >> rest]
+        });
+        sizes
+            .chain([i32::MAX])
+            .flat_map(|size| [Fixed(size), Fixed(size.wrapping_neg())])
+            .chain([Fixed(i32::MIN)])
+            .collect()
     }
 
     #[test]

@@ -9,7 +9,7 @@ use svg::{
 
 use super::{
     KEY_GAP_PX, key, key_px, place,
-    plot::{self, Axis, BELOW_PX, Curve, LEFT_PX, Plot, Shape, Spot},
+    plot::{self, Anchor, Axis, BELOW_PX, Curve, LEFT_PX, Plot, Shape, Spot},
     words,
 };
 
@@ -28,6 +28,7 @@ const KEY_PX: f64 = 19.0;
 const MARKS: f64 = 6.0;
 
 const SOLID: [&str; 7] = ["s0", "s1", "s2", "s3", "s4", "s5", "s6"];
+const BARS: [&str; 2] = ["b0", "b1"];
 const DASHED: [&str; 7] = ["d0", "d1", "d2", "d3", "d4", "d5", "d6"];
 
 /// Panels, row by row.
@@ -65,17 +66,24 @@ pub struct Scale {
     pub range: Option<[f64; 2]>,
     /// Larger values stand lower: depth.
     pub downwards: bool,
+    /// Whether values are marked; not those of rows that have names.
+    pub marked: bool,
 }
 
 impl Scale {
     /// An axis from one value to another.
     pub fn exactly(label: impl Into<String>, range: [f64; 2]) -> Self {
-        Self { label: label.into(), range: Some(range), downwards: false }
+        Self { label: label.into(), range: Some(range), downwards: false, marked: true }
     }
 
     /// An axis around all values.
     pub fn around(label: impl Into<String>) -> Self {
-        Self { label: label.into(), range: None, downwards: false }
+        Self { label: label.into(), range: None, downwards: false, marked: true }
+    }
+
+    /// An upright axis of so many rows, from the top: row 0 stands at 0.
+    pub fn rows(count: usize) -> Self {
+        Self { label: String::new(), range: Some([-0.7, count as f64 - 0.3]), downwards: true, marked: false }
     }
 
     fn axis(&self, values: impl Iterator<Item = f64>) -> Axis {
@@ -83,6 +91,7 @@ impl Scale {
             Some([min, max]) => Axis::exactly(min, max, MARKS),
             None => Axis::around(values, f64::MIN_POSITIVE, MARKS),
         };
+        let axis = if self.marked { axis } else { axis.unmarked() };
         if self.downwards { axis.downwards() } else { axis }
     }
 }
@@ -105,6 +114,8 @@ pub enum Stroke {
     Solid(usize),
     /// Dashed, in a colour.
     Dashed(usize),
+    /// As thick as a bar, in one of two colours.
+    Bar(usize),
     /// A thin dotted line to read by.
     Aid,
 }
@@ -114,6 +125,7 @@ impl Stroke {
         match self {
             Self::Solid(colour) => SOLID[colour % SOLID.len()],
             Self::Dashed(colour) => DASHED[colour % DASHED.len()],
+            Self::Bar(colour) => BARS[colour % BARS.len()],
             Self::Aid => "axis",
         }
     }
@@ -141,6 +153,10 @@ pub enum Mark {
     Printed,
     /// A few words.
     Note(String),
+    /// Words that end there.
+    Before(String),
+    /// Words that begin there.
+    After(String),
 }
 
 impl Mark {
@@ -150,7 +166,9 @@ impl Mark {
             Self::To => ("to", Shape::Square),
             Self::Point => ("point", Shape::Circle),
             Self::Printed => ("printed", Shape::Circle),
-            Self::Note(words) => ("note", Shape::Words(words.clone())),
+            Self::Note(words) => ("note", Shape::Words(words.clone(), Anchor::Middle)),
+            Self::Before(words) => ("note", Shape::Words(words.clone(), Anchor::End)),
+            Self::After(words) => ("note", Shape::Words(words.clone(), Anchor::Start)),
         };
         Spot { class, at, shape }
     }

@@ -19,6 +19,8 @@ const BOX: f64 = 1000.0;
 const BUCKETS: usize = 700;
 /// Room beyond the values, over their range.
 const ROOM: f64 = 0.06;
+/// From a place to words that begin or end there, px.
+const WORDS_PX: f64 = 5.0;
 /// Steps between marked directions, deg.
 const TURN_PARTS_DEG: [f64; 10] = [1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 90.0, 180.0, 360.0];
 
@@ -61,7 +63,15 @@ pub(crate) struct Spot {
 pub(crate) enum Shape {
     Circle,
     Square,
-    Words(String),
+    Words(String, Anchor),
+}
+
+/// Which part of words stands at their place.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Anchor {
+    Start,
+    Middle,
+    End,
 }
 
 /// What one plot shows.
@@ -99,6 +109,11 @@ impl Axis {
         let words = |value: f64| format!("{value:.decimals$}").replace('-', "−");
         let marks = marks(min, max, step).map(|value| (value, words(value))).collect();
         Self { min, max, marks, downwards: false }
+    }
+
+    /// The same without marks.
+    pub(crate) fn unmarked(self) -> Self {
+        Self { marks: Vec::new(), ..self }
     }
 
     /// The same, larger values lower.
@@ -214,9 +229,14 @@ impl Plot {
                     let square = Rectangle::new().set("class", spot.class).set("x", x).set("y", y);
                     plot.append(square.set("width", 9).set("height", 9).set("transform", "translate(-4.5 -4.5)"));
                 }
-                Shape::Words(words) => {
-                    let text = Text::new(words.clone()).set("class", spot.class).set("text-anchor", "middle");
-                    plot.append(text.set("x", x).set("y", y).set("dy", "0.33em"));
+                Shape::Words(words, anchor) => {
+                    let (anchor, dx) = match anchor {
+                        Anchor::Start => ("start", WORDS_PX),
+                        Anchor::Middle => ("middle", 0.0),
+                        Anchor::End => ("end", -WORDS_PX),
+                    };
+                    let text = Text::new(words.clone()).set("class", spot.class).set("text-anchor", anchor);
+                    plot.append(text.set("x", x).set("y", y).set("dx", dx).set("dy", "0.33em"));
                 }
             }
         }

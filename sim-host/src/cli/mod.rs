@@ -1,6 +1,7 @@
 //! The command line of `glider`: answers on stdout, everything else on stderr, one clear line on bad input.
 
 mod campaign;
+mod design;
 mod endurance;
 mod fly;
 mod locus;
@@ -8,6 +9,7 @@ mod paper;
 mod polar;
 mod progress;
 mod schema;
+mod sensitivity;
 mod size;
 mod stability;
 mod table;
@@ -45,6 +47,10 @@ enum Command {
     Modes(stability::ModesArgs),
     /// Vary the shape: how the modes move, as root loci
     Locus(locus::Args),
+    /// Rank the geometry: exact derivatives of performance, modes and turning by every parameter
+    Sensitivity(sensitivity::Args),
+    /// Find the best geometry within bounds, and what range costs in agility
+    Design(design::Args),
     /// Reproduce every figure and table of the paper, side by side with what it prints
     Paper(paper::Args),
     /// Mark the drag polar: flattest glide and maximum horizontal speed
@@ -82,6 +88,8 @@ pub fn main() -> ExitCode {
         Command::Turn(args) => stability::turn(&args),
         Command::Modes(args) => stability::run_modes(&args),
         Command::Locus(args) => locus::run(&args),
+        Command::Sensitivity(args) => sensitivity::run(&args),
+        Command::Design(args) => design::run(&args),
         Command::Paper(args) => paper::run(&args),
         Command::Polar(args) => polar::run(&args),
         Command::Size(args) => size::run(&args),

@@ -27,6 +27,22 @@ pub struct AddedMassOf<T: Real> {
     pub coupling_kg_m: Matrix3<T>,
 }
 
+impl From<&AddedMass> for AddedMassOf<f64> {
+    fn from(a: &AddedMass) -> Self {
+        Self { mass_kg: a.mass_kg, inertia_kg_m2: a.inertia_kg_m2, coupling_kg_m: a.coupling_kg_m }
+    }
+}
+
+impl AddedMassOf<f64> {
+    /// In another scalar, without derivatives.
+    #[must_use]
+    pub fn lift<T: Real>(&self) -> AddedMassOf<T> {
+        let [mass_kg, inertia_kg_m2, coupling_kg_m] =
+            [self.mass_kg, self.inertia_kg_m2, self.coupling_kg_m].map(|matrix| matrix.map(T::constant));
+        AddedMassOf { mass_kg, inertia_kg_m2, coupling_kg_m }
+    }
+}
+
 impl From<AddedMassOf<f64>> for AddedMass {
     fn from(a: AddedMassOf<f64>) -> Self {
         Self { mass_kg: a.mass_kg, inertia_kg_m2: a.inertia_kg_m2, coupling_kg_m: a.coupling_kg_m }

@@ -85,6 +85,23 @@ impl From<&Hydrodynamics> for Coefficients {
 }
 
 impl Coefficients {
+    /// In another scalar, without derivatives.
+    #[must_use]
+    pub fn lift<T: Real>(&self) -> Coefficients<T> {
+        let three = |values: [f64; 3]| values.map(T::constant);
+        Coefficients {
+            area_m2: T::constant(self.area_m2),
+            span_m: T::constant(self.span_m),
+            chord_m: T::constant(self.chord_m),
+            drag: self.drag.map(T::constant),
+            lift: three(self.lift),
+            side: three(self.side),
+            roll: three(self.roll),
+            pitch: three(self.pitch),
+            yaw: three(self.yaw),
+        }
+    }
+
     /// As a vehicle has them.
     #[must_use]
     pub fn hydrodynamics(&self, moment_frame: MomentFrame) -> Hydrodynamics {

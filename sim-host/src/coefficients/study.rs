@@ -2,8 +2,12 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::{Coefficients, Shape, Stream};
-use crate::vehicle::{AddedMass, Body, Hydrodynamics, Vehicle, plan_area_m2, side_area_m2};
+use super::{AddedMassOf, Coefficients, Shape, Stream};
+use crate::{
+    plant::Outside,
+    real::Real,
+    vehicle::{Body, Vehicle, plan_area_m2, side_area_m2},
+};
 
 /// What a changed shape's coefficients start from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -47,14 +51,14 @@ impl<'a> Study<'a> {
 
     /// The flow at a speed and a lift coefficient, in the vehicle's water.
     #[must_use]
-    pub fn stream(&self, speed_m_s: f64, lift_coefficient: f64) -> Stream {
-        let kinematic_viscosity_m2_s = self.vehicle.water.kinematic_viscosity_m2_s;
+    pub fn stream<T: Real>(&self, speed_m_s: T, lift_coefficient: T) -> Stream<T> {
+        let kinematic_viscosity_m2_s = T::constant(self.vehicle.water.kinematic_viscosity_m2_s);
         Stream { speed_m_s, kinematic_viscosity_m2_s, lift_coefficient }
     }
 
     /// Coefficients of a shape, referred to its own wing, at a speed and a lift coefficient.
     #[must_use]
-    pub fn coefficients(&self, shape: &Shape, speed_m_s: f64, lift_coefficient: f64) -> Coefficients {
+    pub fn coefficients<T: Real>(&self, shape: &Shape<T>, speed_m_s: T, lift_coefficient: T) -> Coefficients<T> {
         let changed = shape.coefficients(&self.stream(speed_m_s, lift_coefficient));
         if self.anchoring == Anchoring::Unanchored {
             return changed;
@@ -66,50 +70,57 @@ impl<'a> Study<'a> {
             nominal.span_m,
             nominal.chord_m,
         );
-        let change = changed.zip_map(&nominal, |new, old| new - old);
-        change.zip_map(&own, |change, own| own + change)
-    }
-
-    /// The same as a vehicle has them.
-    #[must_use]
-    pub fn hydrodynamics(&self, shape: &Shape, speed_m_s: f64, lift_coefficient: f64) -> Hydrodynamics {
-        let moment_frame = self.vehicle.hydrodynamics.moment_frame;
-        self.coefficients(shape, speed_m_s, lift_coefficient).hydrodynamics(moment_frame)
+        let change = changed.zip_map(&nominal.lift(), |new, old| new - old);
+        change.zip_map(&own.lift(), |change, own| own + change)
     }
 
     /// Added mass of a shape.
     #[must_use]
-    pub fn added_mass(&self, shape: &Shape) -> AddedMass {
+    pub fn added_mass<T: Real>(&self, shape: &Shape<T>) -> AddedMassOf<T> {
         let density_kg_m3 = self.vehicle.water.density_kg_m3;
-        let changed = AddedMass::from(shape.added_mass(density_kg_m3));
+        let changed = shape.added_mass(T::constant(density_kg_m3));
         if self.anchoring == Anchoring::Unanchored {
             return changed;
         }
-        let nominal = AddedMass::from(Shape::of(self.vehicle).added_mass(density_kg_m3));
-        let own = &self.vehicle.added_mass;
-        AddedMass {
+        let nominal = Shape::of(self.vehicle).added_mass(density_kg_m3).lift();
+        let own = AddedMassOf::from(&self.vehicle.added_mass).lift();
+        AddedMassOf {
             mass_kg: own.mass_kg + changed.mass_kg - nominal.mass_kg,
             inertia_kg_m2: own.inertia_kg_m2 + changed.inertia_kg_m2 - nominal.inertia_kg_m2,
             coupling_kg_m: own.coupling_kg_m + changed.coupling_kg_m - nominal.coupling_kg_m,
         }
     }
 
+    /// Everything that a shape gives the plant; cross-flow areas change by as much as the shape's.
+    #[must_use]
+    pub fn outside<T: Real>(&self, shape: &Shape<T>, speed_m_s: T, lift_coefficient: T) -> Outside<T> {
+        let (nominal, own) = (Shape::of(self.vehicle), Outside::<T>::of(self.vehicle));
+        let plan = plan_area_m2(&nominal.hull, &nominal.wing);
+        let side = side_area_m2(&nominal.hull, &nominal.fin);
+        Outside {
+            coefficients: self.coefficients(shape, speed_m_s, lift_coefficient),
+            added_mass: self.added_mass(shape),
+            length_m: shape.hull.length_m,
+            plan_area_m2: own.plan_area_m2 + (plan_area_m2(&shape.hull, &shape.wing) - T::constant(plan)),
+            side_area_m2: own.side_area_m2 + (side_area_m2(&shape.hull, &shape.fin) - T::constant(side)),
+        }
+    }
+
     /// The vehicle with a changed shape, its coefficients those of a speed and a lift coefficient.
     ///
-    /// Moving mass, engine and battery stay; cross-flow areas change by as much as the shape's.
+    /// Moving mass, engine and battery stay.
     ///
     /// # Errors
     /// One line, where the change leaves no possible vehicle: no mass for the body, or a drag, lift slope or added mass that
     /// is not positive (anchoring far from the nominal shape).
     pub fn vehicle(&self, shape: &Shape, speed_m_s: f64, lift_coefficient: f64) -> Result<Vehicle, String> {
         let mut changed = self.vehicle.clone();
-        changed.hydrodynamics = self.hydrodynamics(shape, speed_m_s, lift_coefficient);
-        changed.added_mass = self.added_mass(shape);
+        let outside = self.outside(shape, speed_m_s, lift_coefficient);
+        changed.hydrodynamics = outside.coefficients.hydrodynamics(self.vehicle.hydrodynamics.moment_frame);
+        changed.added_mass = outside.added_mass.into();
         if let Some(crossflow) = &mut changed.crossflow {
-            let nominal = Shape::of(self.vehicle);
-            crossflow.plan_area_m2 +=
-                plan_area_m2(&shape.hull, &shape.wing) - plan_area_m2(&nominal.hull, &nominal.wing);
-            crossflow.side_area_m2 += side_area_m2(&shape.hull, &shape.fin) - side_area_m2(&nominal.hull, &nominal.fin);
+            crossflow.plan_area_m2 = outside.plan_area_m2;
+            crossflow.side_area_m2 = outside.side_area_m2;
         }
         if self.mass_rule == MassRule::Neutral {
             let others_kg = changed.mass_kg() - changed.body.mass_kg;

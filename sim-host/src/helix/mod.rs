@@ -1,5 +1,6 @@
 //! Steady helices of the full equations: turns at constant rate along a path of constant slope, straight glides among them.
 
+mod along;
 mod follow;
 mod search;
 
@@ -9,6 +10,7 @@ use crate::{
     plant::{Plant, State, quaternion_from_euler},
     real::Real,
 };
+pub(crate) use along::{Along, HelixAlong, Nested, rate, with_rate};
 pub use search::HelixSolver;
 
 /// (V or m̃, α, β, φ, θ, r_px, μ, Ω): speed or net mass, whichever is not given.
@@ -16,52 +18,52 @@ type Unknowns<T> = SVector<T, 8>;
 
 /// A steady helix: a turn at constant rate along a path of constant slope.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Helix {
+pub struct Helix<T = f64> {
     /// m̃, kg, positive sinks.
-    pub net_mass_kg: f64,
+    pub net_mass_kg: T,
     /// V, m/s.
-    pub speed_m_s: f64,
+    pub speed_m_s: T,
     /// α, rad.
-    pub alpha_rad: f64,
+    pub alpha_rad: T,
     /// β, rad.
-    pub beta_rad: f64,
+    pub beta_rad: T,
     /// φ, rad, right wing down.
-    pub roll_rad: f64,
+    pub roll_rad: T,
     /// θ, rad.
-    pub pitch_rad: f64,
+    pub pitch_rad: T,
     /// Axial position of the moving mass, m.
-    pub r_px_m: f64,
+    pub r_px_m: T,
     /// μ, rad.
-    pub mu_rad: f64,
+    pub mu_rad: T,
     /// Ω, rad/s, right positive.
-    pub turn_rate_rad_s: f64,
+    pub turn_rate_rad_s: T,
 }
 
 /// What is given of a glide's size: how fast, or how heavy.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Scale {
+pub enum Scale<T = f64> {
     /// Speed, m/s.
-    Speed(f64),
+    Speed(T),
     /// Net mass, kg, positive sinks.
-    NetMass(f64),
+    NetMass(T),
 }
 
 /// What is given of the helix's slope.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Slope {
+pub enum Slope<T = f64> {
     /// γ, rad.
-    PathAngle(f64),
+    PathAngle(T),
     /// θ, rad.
-    Pitch(f64),
+    Pitch(T),
 }
 
 /// What is given of its turn.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Turn {
+pub enum Turn<T = f64> {
     /// μ, rad.
-    Mu(f64),
+    Mu(T),
     /// Ω, rad/s.
-    Rate(f64),
+    Rate(T),
 }
 
 impl Helix {
@@ -76,15 +78,17 @@ impl Helix {
     pub fn radius_m(&self) -> f64 {
         self.speed_m_s * libm::cos(self.path_angle_rad()) / self.turn_rate_rad_s.abs()
     }
+}
 
+impl<T: Real> Helix<T> {
     /// The helix as a state of the plant, heading north, at depth 0.
     #[must_use]
-    pub fn state(&self, plant: &Plant<f64>) -> State<f64> {
+    pub fn state(&self, plant: &Plant<T>) -> State<T> {
         let scale = Scale::NetMass(self.net_mass_kg);
         steady_state(plant, &self.unknowns(scale), scale)
     }
 
-    fn unknowns(&self, scale: Scale) -> Unknowns<f64> {
+    fn unknowns(&self, scale: Scale<T>) -> Unknowns<T> {
         let size = match scale {
             Scale::Speed(_) => self.net_mass_kg,
             Scale::NetMass(_) => self.speed_m_s,
@@ -101,19 +105,24 @@ impl Helix {
         ])
     }
 
-    fn from_unknowns(x: &Unknowns<f64>, scale: Scale) -> Self {
+    fn from_unknowns(x: &Unknowns<T>, scale: Scale<T>) -> Self {
         let [size, alpha_rad, beta_rad, roll_rad, pitch_rad, r_px_m, mu_rad, turn_rate_rad_s] = (*x).into();
         let [speed_m_s, net_mass_kg] = scale.speed_and_net_mass(size);
         Self { net_mass_kg, speed_m_s, alpha_rad, beta_rad, roll_rad, pitch_rad, r_px_m, mu_rad, turn_rate_rad_s }
     }
+
+    /// v, body axes, m/s.
+    pub(crate) fn velocity_m_s(&self) -> Vector3<T> {
+        direction(&self.unknowns(Scale::NetMass(self.net_mass_kg))) * self.speed_m_s
+    }
 }
 
-impl Scale {
+impl<T: Real> Scale<T> {
     /// Both, the one that is not given being the unknown.
-    fn speed_and_net_mass<T: Real>(self, unknown: T) -> [T; 2] {
+    fn speed_and_net_mass(self, unknown: T) -> [T; 2] {
         match self {
-            Self::Speed(speed_m_s) => [T::constant(speed_m_s), unknown],
-            Self::NetMass(net_mass_kg) => [unknown, T::constant(net_mass_kg)],
+            Self::Speed(speed_m_s) => [speed_m_s, unknown],
+            Self::NetMass(net_mass_kg) => [unknown, net_mass_kg],
         }
     }
 }
@@ -136,7 +145,7 @@ fn climb<T: Real>(x: &Unknowns<T>) -> T {
 }
 
 /// The state whose rates vanish if the helix is steady.
-fn steady_state<T: Real>(plant: &Plant<T>, x: &Unknowns<T>, scale: Scale) -> State<T> {
+fn steady_state<T: Real>(plant: &Plant<T>, x: &Unknowns<T>, scale: Scale<T>) -> State<T> {
     let [speed_m_s, net_mass_kg] = scale.speed_and_net_mass(x[0]);
     State {
         quaternion: quaternion_from_euler(&Vector3::new(x[3], x[4], T::constant(0.0))),

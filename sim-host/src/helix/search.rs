@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use nalgebra::{Const, SMatrix};
-use num_dual::DualSVec64;
+use num_dual::{DualNum, DualSVec, DualSVec64};
 
 use super::{Helix, Scale, Slope, Turn, Unknowns, climb, steady_state};
 use crate::{plant::Plant, real::Real, vehicle::Vehicle};
@@ -25,10 +25,10 @@ pub struct HelixSolver {
 
 /// What a helix is asked to be.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Asked {
-    pub(super) scale: Scale,
-    pub(super) slope: Slope,
-    pub(super) turn: Turn,
+pub(crate) struct Asked<T = f64> {
+    pub(crate) scale: Scale<T>,
+    pub(crate) slope: Slope<T>,
+    pub(crate) turn: Turn<T>,
 }
 
 /// Why a search found nothing.
@@ -72,7 +72,7 @@ impl HelixSolver {
     #[must_use]
     pub fn sensitivity(&self, helix: &Helix, slope: Slope, turn: Turn) -> Option<Helix> {
         let scale = Scale::NetMass(helix.net_mass_kg);
-        let (_, jacobian) = self.residual(&helix.unknowns(scale), &Asked { scale, slope, turn });
+        let (_, jacobian) = residual(&self.plant, &helix.unknowns(scale), &Asked { scale, slope, turn });
         // The given value enters its own row, the last, as −value.
         let change = jacobian.lu().solve(&Unknowns::from([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]))?;
         Some(Helix::from_unknowns(&change, Scale::NetMass(0.0)))
@@ -83,7 +83,7 @@ impl HelixSolver {
         let mut x = near.unknowns(asked.scale);
         let mut least = f64::INFINITY;
         for _ in 0..MOST_ITERATIONS {
-            let (residual, jacobian) = self.residual(&x, asked);
+            let (residual, jacobian) = residual(&self.plant, &x, asked);
             let left = residual.amax();
             if left < TOLERANCE {
                 let helix = Helix::from_unknowns(&x, asked.scale);
@@ -95,27 +95,36 @@ impl HelixSolver {
         }
         Err(Miss::Residual(least))
     }
+}
 
-    /// Balance of the six equations and of what is given, with its Jacobian.
-    fn residual(&self, x: &Unknowns<f64>, asked: &Asked) -> (Unknowns<f64>, SMatrix<f64, 8, 8>) {
-        let x = Unknowns::from_fn(|i, _| Dual::from_re(x[i]).derivative(i));
-        let balance = self.plant.body_residual(&steady_state(&self.plant, &x, asked.scale));
-        let given_slope = match asked.slope {
-            Slope::PathAngle(path_angle_rad) => climb(&x) - Dual::constant(libm::sin(path_angle_rad)),
-            Slope::Pitch(pitch_rad) => x[4] - Dual::constant(pitch_rad),
-        };
-        let given_turn = match asked.turn {
-            Turn::Mu(mu_rad) => x[6] - Dual::constant(mu_rad),
-            Turn::Rate(rate_rad_s) => x[7] - Dual::constant(rate_rad_s),
-        };
-        let rows = Unknowns::from_fn(|i, _| match i {
-            6 => given_slope,
-            7 => given_turn,
-            _ => balance[i],
-        });
-        let jacobian = SMatrix::from_fn(|i, j| rows[i].eps.unwrap_generic(Const::<8>, Const::<1>)[j]);
-        (rows.map(|row| row.re), jacobian)
-    }
+/// Balance of the six equations and of what is given, with its Jacobian.
+pub(super) fn residual<T: Real + DualNum>(
+    plant: &Plant<DualSVec<T, 8>>,
+    x: &Unknowns<T>,
+    asked: &Asked<T>,
+) -> (Unknowns<T>, SMatrix<T, 8, 8>) {
+    let constant = DualSVec::<T, 8>::from_re;
+    let x = Unknowns::from_fn(|i, _| constant(x[i]).derivative(i));
+    let scale = match asked.scale {
+        Scale::Speed(speed_m_s) => Scale::Speed(constant(speed_m_s)),
+        Scale::NetMass(net_mass_kg) => Scale::NetMass(constant(net_mass_kg)),
+    };
+    let balance = plant.body_residual(&steady_state(plant, &x, scale));
+    let given_slope = match asked.slope {
+        Slope::PathAngle(path_angle_rad) => climb(&x) - constant(Real::sin(path_angle_rad)),
+        Slope::Pitch(pitch_rad) => x[4] - constant(pitch_rad),
+    };
+    let given_turn = match asked.turn {
+        Turn::Mu(mu_rad) => x[6] - constant(mu_rad),
+        Turn::Rate(rate_rad_s) => x[7] - constant(rate_rad_s),
+    };
+    let rows = Unknowns::from_fn(|i, _| match i {
+        6 => given_slope,
+        7 => given_turn,
+        _ => balance[i],
+    });
+    let jacobian = SMatrix::from_fn(|i, j| rows[i].eps.unwrap_generic(Const::<8>, Const::<1>)[j]);
+    (rows.map(|row| row.re), jacobian)
 }
 
 /// Of α, β, φ, θ and μ.

@@ -4,28 +4,28 @@
 
 use serde::Serialize;
 
-use crate::vehicle::Hydrodynamics;
+use crate::{real::Real, vehicle::Hydrodynamics};
 
 /// C_D = C_D0 + K C_L².
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Polar {
+pub struct Polar<T = f64> {
     /// C_D0.
-    pub c_d_zero: f64,
+    pub c_d_zero: T,
     /// K.
-    pub c_d_induced: f64,
+    pub c_d_induced: T,
 }
 
 /// A glide on a polar.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct PolarPoint {
+pub struct PolarPoint<T = f64> {
     /// C_L.
-    pub lift_coefficient: f64,
+    pub lift_coefficient: T,
     /// C_D.
-    pub drag_coefficient: f64,
+    pub drag_coefficient: T,
     /// γ_d = arctan(C_D/C_L), rad, down positive.
-    pub descent_rad: f64,
+    pub descent_rad: T,
     /// C_L/C_D.
-    pub lift_to_drag: f64,
+    pub lift_to_drag: T,
 }
 
 impl From<&Hydrodynamics> for Polar {
@@ -34,22 +34,23 @@ impl From<&Hydrodynamics> for Polar {
     }
 }
 
-impl Polar {
+impl<T: Real> Polar<T> {
     /// The glide at a lift coefficient.
     #[must_use]
-    pub fn at(&self, lift_coefficient: f64) -> PolarPoint {
+    pub fn at(&self, lift_coefficient: T) -> PolarPoint<T> {
         point(lift_coefficient, self.c_d_zero + self.c_d_induced * lift_coefficient * lift_coefficient)
     }
 
     /// The flattest glide: C_L = √(C_D0/K), C_D = 2 C_D0, tan γ = 2√(K C_D0).
     #[must_use]
-    pub fn best_glide(&self) -> PolarPoint {
-        let least_slope = 2.0 * (self.c_d_induced * self.c_d_zero).sqrt();
+    pub fn best_glide(&self) -> PolarPoint<T> {
+        let [one, two] = [1.0, 2.0].map(T::constant);
+        let least_slope = two * (self.c_d_induced * self.c_d_zero).sqrt();
         PolarPoint {
             lift_coefficient: (self.c_d_zero / self.c_d_induced).sqrt(),
-            drag_coefficient: 2.0 * self.c_d_zero,
-            descent_rad: libm::atan(least_slope),
-            lift_to_drag: 1.0 / least_slope,
+            drag_coefficient: two * self.c_d_zero,
+            descent_rad: least_slope.atan2(one),
+            lift_to_drag: one / least_slope,
         }
     }
 
@@ -57,18 +58,19 @@ impl Polar {
     ///
     /// With δ = 2KC_D0 and s = 1 + δ + √((1 + δ)² + 8δ²), the paper's r is 8δ²/s, so C_L = 2C_D0/√s and C_D = C_D0 + 4KC_D0²/s.
     #[must_use]
-    pub fn max_horizontal_speed(&self) -> PolarPoint {
-        let delta = 2.0 * self.c_d_induced * self.c_d_zero;
-        let s = 1.0 + delta + ((1.0 + delta) * (1.0 + delta) + 8.0 * delta * delta).sqrt();
-        point(2.0 * self.c_d_zero / s.sqrt(), self.c_d_zero * (1.0 + 2.0 * delta / s))
+    pub fn max_horizontal_speed(&self) -> PolarPoint<T> {
+        let [one, two, eight] = [1.0, 2.0, 8.0].map(T::constant);
+        let delta = two * self.c_d_induced * self.c_d_zero;
+        let s = one + delta + ((one + delta) * (one + delta) + eight * delta * delta).sqrt();
+        point(two * self.c_d_zero / s.sqrt(), self.c_d_zero * (one + two * delta / s))
     }
 }
 
-fn point(lift_coefficient: f64, drag_coefficient: f64) -> PolarPoint {
+fn point<T: Real>(lift_coefficient: T, drag_coefficient: T) -> PolarPoint<T> {
     PolarPoint {
         lift_coefficient,
         drag_coefficient,
-        descent_rad: libm::atan2(drag_coefficient, lift_coefficient),
+        descent_rad: drag_coefficient.atan2(lift_coefficient),
         lift_to_drag: lift_coefficient / drag_coefficient,
     }
 }

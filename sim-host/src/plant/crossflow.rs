@@ -6,7 +6,7 @@
 
 use nalgebra::Vector3;
 
-use super::Plant;
+use super::{Outside, Plant};
 use crate::{real::Real, vehicle::Vehicle};
 
 /// ∫|x|³ dx over a length l, over l⁴: what turns a cross-flow drag per length into a damping moment.
@@ -28,21 +28,21 @@ pub(super) struct Crossflow<T: Real> {
 
 impl<T: Real> Crossflow<T> {
     /// `None` for a vehicle whose file has no cross flow: the linear law then holds at every angle.
-    pub(super) fn new(vehicle: &Vehicle) -> Option<Self> {
+    pub(super) fn new(vehicle: &Vehicle, outside: &Outside<T>) -> Option<Self> {
         let crossflow = vehicle.crossflow.as_ref()?;
-        let (length, hydro) = (vehicle.hull.length_m, &vehicle.hydrodynamics);
-        let cdc = crossflow.drag_coefficient;
-        let (side, plan) = (cdc * crossflow.side_area_m2, cdc * crossflow.plan_area_m2);
-        let wing = cdc * hydro.area_m2 * hydro.span_m.powi(3);
         let c = T::constant;
+        let (length, hydro) = (outside.length_m, &outside.coefficients);
+        let cdc = c(crossflow.drag_coefficient);
+        let (side, plan) = (cdc * outside.side_area_m2, cdc * outside.plan_area_m2);
+        let cube = |x: T| x * x * x;
+        let wing = cdc * hydro.area_m2 * cube(hydro.span_m);
         Some(Self {
             stall_rad: c(crossflow.stall_deg.to_radians()),
             separated_rad: c(crossflow.separated_deg.to_radians()),
-            axial_m2: c(hydro.c_d_zero * hydro.area_m2),
-            side_m2: c(side),
-            plan_m2: c(plan),
-            damping_m5: Vector3::new(wing, plan * length.powi(3), side * length.powi(3))
-                .map(|volume| c(CUBIC_MOMENT * volume)),
+            axial_m2: hydro.drag[0] * hydro.area_m2,
+            side_m2: side,
+            plan_m2: plan,
+            damping_m5: Vector3::new(wing, plan * cube(length), side * cube(length)) * c(CUBIC_MOMENT),
         })
     }
 

@@ -89,7 +89,7 @@ impl<T: Real> Plant<T> {
             Vector3::new(lateral(c.roll) * c.span_m, longitudinal(c.pitch) * c.chord_m, lateral(c.yaw) * c.span_m);
 
         let pressure_n = T::constant(0.5) * density_kg_m3 * flow.speed_m_s * flow.speed_m_s * c.area_m2;
-        let moment = match c.moment_frame {
+        let moment = match self.moment_frame {
             MomentFrame::Body => moment,
             MomentFrame::Current => flow.to_body(&moment),
         };

@@ -10,6 +10,7 @@ mod dynamics;
 mod hydrodynamics;
 mod inertia;
 mod integrate;
+mod outside;
 mod solve;
 mod station;
 mod surface;
@@ -20,13 +21,15 @@ pub use dynamics::{Input, Reaction};
 pub use hydrodynamics::{Flow, Viscous};
 pub use inertia::Matrix8;
 pub use integrate::{Particle, rk4_step};
+pub use outside::Outside;
 pub use surroundings::{Medium, Surroundings, Unrest};
 
 use nalgebra::{Matrix3, Vector3, Vector4};
 
 use crate::{
+    coefficients::Coefficients,
     real::Real,
-    vehicle::{Hydrodynamics, MomentFrame, Vehicle},
+    vehicle::{MomentFrame, Vehicle},
 };
 
 /// Where the vehicle is and how it moves.
@@ -102,6 +105,7 @@ pub struct Plant<T: Real> {
     thermal_expansion_per_c: T,
     reference_temperature_c: T,
     coefficients: Coefficients<T>,
+    moment_frame: MomentFrame,
     crossflow: Option<crossflow::Crossflow<T>>,
     /// Present where the variable volume acts away from the centre of buoyancy.
     station: Option<station::Station<T>>,
@@ -109,56 +113,23 @@ pub struct Plant<T: Real> {
     hull: Option<surface::Hull<T>>,
 }
 
-/// Coefficients of the viscous forces in the plant's scalar; names as in [`Hydrodynamics`].
-#[derive(Clone, Debug)]
-#[allow(missing_docs, reason = "documented in `Hydrodynamics`")]
-pub(crate) struct Coefficients<T: Real> {
-    pub(crate) area_m2: T,
-    pub(crate) span_m: T,
-    pub(crate) chord_m: T,
-    pub(crate) moment_frame: MomentFrame,
-    /// drag: zero, induced.
-    pub(crate) drag: [T; 2],
-    /// lift: zero, alpha, q.
-    pub(crate) lift: [T; 3],
-    /// side: beta, p, r.
-    pub(crate) side: [T; 3],
-    /// roll: beta, p, r.
-    pub(crate) roll: [T; 3],
-    /// pitch: zero, alpha, q.
-    pub(crate) pitch: [T; 3],
-    /// yaw: beta, p, r.
-    pub(crate) yaw: [T; 3],
-}
-
-impl<T: Real> Coefficients<T> {
-    fn new(h: &Hydrodynamics) -> Self {
-        let three = |a: f64, b: f64, c: f64| [a, b, c].map(T::constant);
-        Self {
-            area_m2: T::constant(h.area_m2),
-            span_m: T::constant(h.span_m),
-            chord_m: T::constant(h.chord_m),
-            moment_frame: h.moment_frame,
-            drag: [h.c_d_zero, h.c_d_induced].map(T::constant),
-            lift: three(h.c_l_zero, h.c_l_alpha, h.c_l_q),
-            side: three(h.c_y_beta, h.c_y_p, h.c_y_r),
-            roll: three(h.c_roll_beta, h.c_roll_p, h.c_roll_r),
-            pitch: three(h.c_m_zero, h.c_m_alpha, h.c_m_q),
-            yaw: three(h.c_n_beta, h.c_n_p, h.c_n_r),
-        }
-    }
-}
-
 impl<T: Real> Plant<T> {
     /// The plant of a vehicle in the water of its static analyses.
     #[must_use]
     pub fn new(vehicle: &Vehicle) -> Self {
+        Self::with(vehicle, &Outside::of(vehicle))
+    }
+
+    /// The plant of a vehicle with another outside, which may carry derivatives.
+    #[must_use]
+    pub fn with(vehicle: &Vehicle, outside: &Outside<T>) -> Self {
         let c = T::constant;
         let vector = |v: &Vector3<f64>| v.map(c);
         let (body, water) = (&vehicle.body, &vehicle.water);
         let moment = body.centre_of_mass_m * body.mass_kg;
         let elastic = vehicle.buoyancy.as_ref().map(|buoyancy| buoyancy.elasticity).unwrap_or_default();
-        let mass = Matrix3::from_diagonal_element(body.mass_kg + body.ballast_kg) + vehicle.added_mass.mass_kg;
+        let fixed_kg = Matrix3::from_diagonal_element(body.mass_kg + body.ballast_kg);
+        let added = &outside.added_mass;
         Self {
             mass_kg: c(vehicle.mass_kg()),
             density_kg_m3: c(water.density_kg_m3),
@@ -168,16 +139,17 @@ impl<T: Real> Plant<T> {
             particle_kg: c(vehicle.moving_mass.mass_kg),
             particle_radius_m: c(vehicle.moving_mass.radius_m),
             particle_inertia_kg_m2: vector(&vehicle.moving_mass.inertia_kg_m2),
-            fixed_mass_kg: mass.map(c),
-            fixed_coupling_kg_m: (moment.cross_matrix() + vehicle.added_mass.coupling_kg_m).map(c),
-            fixed_inertia_kg_m2: (body.inertia_kg_m2 + vehicle.added_mass.inertia_kg_m2).map(c),
-            added_mass_kg: vehicle.added_mass.mass_kg.map(c),
-            added_coupling_kg_m: vehicle.added_mass.coupling_kg_m.map(c),
+            fixed_mass_kg: fixed_kg.map(c) + added.mass_kg,
+            fixed_coupling_kg_m: moment.cross_matrix().map(c) + added.coupling_kg_m,
+            fixed_inertia_kg_m2: body.inertia_kg_m2.map(c) + added.inertia_kg_m2,
+            added_mass_kg: added.mass_kg,
+            added_coupling_kg_m: added.coupling_kg_m,
             compressibility_per_pa: c(elastic.compressibility_per_pa),
             thermal_expansion_per_c: c(elastic.thermal_expansion_per_c),
             reference_temperature_c: c(elastic.reference_temperature_c),
-            coefficients: Coefficients::new(&vehicle.hydrodynamics),
-            crossflow: crossflow::Crossflow::new(vehicle),
+            coefficients: outside.coefficients,
+            moment_frame: vehicle.hydrodynamics.moment_frame,
+            crossflow: crossflow::Crossflow::new(vehicle, outside),
             station: station::Station::new(vehicle),
             hull: None,
         }

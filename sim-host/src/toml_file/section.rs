@@ -184,6 +184,12 @@ impl Section<'_> {
         self.required(key, "[min, max] with min below max", accept).unwrap_or([f64::NAN; 2])
     }
 
+    /// `[min, max]` with min below max, that may be left out.
+    pub fn optional_range(&mut self, key: &'static str) -> Option<[f64; 2]> {
+        self.describe(key, false, || schema::list(Rule::Finite.schema(), 2, 2));
+        self.has(key).then(|| self.range(key))
+    }
+
     /// A 3×3 matrix, by rows.
     pub fn matrix(&mut self, key: &'static str) -> Matrix3<f64> {
         self.describe(key, true, || schema::list(schema::list(Rule::Finite.schema(), 3, 3), 3, 3));

@@ -53,6 +53,14 @@ impl Vehicle {
         let (text, file) = toml_file::load(name_or_path, EMBEDDED)?;
         Self::from_toml(&text, &file)
     }
+
+    /// The text of the file that [`Vehicle::load`] reads.
+    ///
+    /// # Errors
+    /// As [`Vehicle::load`], where there is no such file.
+    pub fn text(name_or_path: &str) -> Result<String, FileError> {
+        toml_file::load(name_or_path, EMBEDDED).map(|(text, _)| text.into_owned())
+    }
 }
 
 fn vehicle(file: &mut Section<'_>) -> Vehicle {

@@ -54,6 +54,7 @@ pub mod mission_file;
 pub mod modes;
 pub mod ocean;
 pub mod paper;
+pub mod parallel;
 pub mod performance;
 pub mod pilot;
 pub mod plant;

@@ -57,6 +57,7 @@ pub mod paper;
 pub mod parallel;
 pub mod performance;
 pub mod pilot;
+pub mod plan;
 pub mod plant;
 pub mod real;
 pub mod record;

@@ -133,14 +133,13 @@ fn fly_one(
     };
     let summary = flight.fly(flyer.fresh().as_mut(), &mut |tick| record.samples.push(Sample::from(tick)))?;
     let seen = Seen { mission, record: &record, summary: &summary };
-    let loss = summary.loss.map(|loss| format!("{loss:?}"));
     Ok(Flown {
         water: name.clone(),
         pilot: flyer.name(),
         seed,
         drawn,
         outcome: summary.outcome,
-        reason: loss.into_iter().chain(summary.aborts.iter().cloned()).collect::<Vec<_>>().join(" "),
+        reason: summary.reason(),
         values: METRICS.iter().map(|metric| (metric.of)(&seen)).collect(),
     })
 }

@@ -5,6 +5,7 @@ mod endurance;
 mod fly;
 mod locus;
 mod paper;
+mod plan;
 mod polar;
 mod progress;
 mod schema;
@@ -35,6 +36,8 @@ struct Cli {
 enum Command {
     /// Fly a mission, controller in the loop, and report on it
     Fly(fly::Args),
+    /// Plan a mission: how long, how much energy, and where the vehicle will surface, with an ellipse of uncertainty
+    Plan(plan::Args),
     /// Fly a mission with many vehicles, each a little off its file, and compare the autopilot with a classical controller
     Campaign(campaign::Args),
     /// Find a steady straight glide: wings level, or banked if the vehicle is not symmetric
@@ -77,6 +80,7 @@ struct EvalArgs {
 pub fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Fly(args) => fly::run(&args),
+        Command::Plan(args) => plan::run(&args),
         Command::Campaign(args) => campaign::run(&args),
         Command::Trim(args) => trim::run(&args),
         Command::Turn(args) => stability::turn(&args),

@@ -94,6 +94,15 @@ pub struct Summary {
     pub trace_hash: String,
 }
 
+impl Summary {
+    /// Why it did not come back or ended early; empty if neither.
+    #[must_use]
+    pub fn reason(&self) -> String {
+        let loss = self.loss.map(|loss| format!("{loss:?}"));
+        loss.into_iter().chain(self.aborts.iter().cloned()).collect::<Vec<_>>().join(" ")
+    }
+}
+
 /// Gathers the summary tick by tick.
 pub(super) struct Log {
     ticks: u32,

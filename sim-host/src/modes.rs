@@ -20,7 +20,8 @@ const TABLE_LENGTH_M: f64 = 1.8;
 /// Parts of an eigenvalue below this share of the largest are rounding.
 const ROUNDING: f64 = 1e-9;
 
-type Dual = DualSVec64<8>;
+/// Eight states and two places of the moving mass.
+type Dual = DualSVec64<10>;
 
 /// The kinematics of roll.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -66,7 +67,7 @@ pub struct ModeSet {
 /// # Errors
 /// One line if numbers overflow: a speed that no vehicle has.
 pub fn modes(vehicle: &Vehicle, glide: &Glide, roll: RollKinematics) -> Result<Modes, String> {
-    let jacobian = jacobian(vehicle, glide, roll);
+    let jacobian = linearised(vehicle, glide, roll).states;
     if jacobian.iter().any(|entry| !entry.is_finite()) {
         return Err(format!("{}: no finite linearisation at {:e} m/s", vehicle.name, glide.speed_m_s));
     }
@@ -97,8 +98,18 @@ pub fn modes(vehicle: &Vehicle, glide: &Glide, roll: RollKinematics) -> Result<M
     })
 }
 
-/// Derivative of (u̇, ẇ, q̇, θ̇, v̇, ṗ, ṙ, φ̇) by (u, w, q, θ, v, p, r, φ).
-fn jacobian(vehicle: &Vehicle, glide: &Glide, roll: RollKinematics) -> SMatrix<f64, 8, 8> {
+/// Small motions of (u, w, q, θ, v, p, r, φ), SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Linearised {
+    /// Rates of the states by the states.
+    pub states: SMatrix<f64, 8, 8>,
+    /// Rates of the states by the moving mass's axial position, m, and rotation, rad.
+    pub inputs: SMatrix<f64, 8, 2>,
+}
+
+/// The derivatives of the full equations at a glide, exact.
+#[must_use]
+pub fn linearised(vehicle: &Vehicle, glide: &Glide, roll: RollKinematics) -> Linearised {
     let plant = Plant::<Dual>::new(vehicle);
     let trim = glide.state();
     let along = |value: f64, place: usize| Dual::from_re(value).derivative(place);
@@ -110,8 +121,8 @@ fn jacobian(vehicle: &Vehicle, glide: &Glide, roll: RollKinematics) -> SMatrix<f
         quaternion: quaternion_from_euler(&Vector3::new(phi, theta, Dual::constant(0.0))),
         velocity_m_s: Vector3::new(u, v, w),
         rate_rad_s: Vector3::new(p, q, r),
-        r_px_m: Dual::constant(glide.r_px_m),
-        mu_rad: Dual::constant(glide.mu_rad),
+        r_px_m: along(glide.r_px_m, 8),
+        mu_rad: along(glide.mu_rad, 9),
         ..State::at_rest(Dual::constant(glide.displaced_volume_m3))
     };
     let rates = plant.derivative_driven(&state, Dual::constant(0.0), &plant.still());
@@ -122,7 +133,8 @@ fn jacobian(vehicle: &Vehicle, glide: &Glide, roll: RollKinematics) -> SMatrix<f
     };
     let (dv, dw) = (rates.velocity_m_s, rates.rate_rad_s);
     let rows = [dv.x, dv.z, dw.y, q * phi.cos() - r * phi.sin(), dv.y, dw.x, dw.z, roll_rate];
-    SMatrix::from_fn(|i, j| rows[i].eps.unwrap_generic(Const::<8>, Const::<1>)[j])
+    let by = |i: usize, j: usize| rows[i].eps.unwrap_generic(Const::<10>, Const::<1>)[j];
+    Linearised { states: SMatrix::from_fn(by), inputs: SMatrix::from_fn(|i, j| by(i, 8 + j)) }
 }
 
 fn mode_set(

@@ -4,6 +4,7 @@ mod campaign;
 mod endurance;
 mod fly;
 mod locus;
+mod margins;
 mod paper;
 mod plan;
 mod polar;
@@ -46,6 +47,8 @@ enum Command {
     Turn(stability::TurnArgs),
     /// Disturb a glide: eigenvalues and modes
     Modes(stability::ModesArgs),
+    /// Close the controller's loops around the linearised plant: their gain and delay margins over the trim table's envelope
+    Margins(margins::Args),
     /// Vary the shape: how the modes move, as root loci
     Locus(locus::Args),
     /// Reproduce every figure and table of the paper, side by side with what it prints
@@ -85,6 +88,7 @@ pub fn main() -> ExitCode {
         Command::Trim(args) => trim::run(&args),
         Command::Turn(args) => stability::turn(&args),
         Command::Modes(args) => stability::run_modes(&args),
+        Command::Margins(args) => margins::run(&args),
         Command::Locus(args) => locus::run(&args),
         Command::Paper(args) => paper::run(&args),
         Command::Polar(args) => polar::run(&args),

@@ -31,6 +31,9 @@
 //! | a dive turns above a sloping floor by the altimeter | `tests/ocean.rs` | 3 m of the height asked for |
 //! | pressure in the hull by the gas law, echoes by beam and range | `flight::sensors` | 1e-12 relative; whole steps |
 //! | linearisation by dual numbers against central differences | `tests/stability.rs` | 1e-7 relative: the differences' own error |
+//! | closed loops around the linearised plant against the full plant flown by the same laws | `tests/margins.rs` | grows or dies out |
+//! | sampled integrators: margins in closed form | `margins::sampled` | 1e-6: bisection |
+//! | an ellipse of surfacings holds its share of other seeds' | `tests/plan.rs` | three deviations of the counts |
 //! | geometry to coefficients: spheroid, strips, thin plates, scaling; exact derivatives | `tests/coefficients.rs` | 1e-9: quadrature; 1e-7: differences |
 //! | polar, eqs (10)–(13), (17) and the ideal range, against searches and as printed | `tests/performance.rs` | 1e-9; 1e-12: rounding |
 //! | a realistic yo against the flown one | `tests/performance.rs` | 1 %: noise, an apogee that is not symmetric |
@@ -53,12 +56,15 @@ pub mod helix;
 #[cfg(unix)]
 pub mod link;
 pub mod locus;
+pub mod margins;
 pub mod mission_file;
 pub mod modes;
 pub mod ocean;
 pub mod paper;
+pub mod parallel;
 pub mod performance;
 pub mod pilot;
+pub mod plan;
 pub mod plant;
 pub mod real;
 pub mod record;

@@ -105,6 +105,27 @@ pub fn modes(vehicle: &Vehicle, glide: &Glide, roll: RollKinematics) -> Result<M
     })
 }
 
+/// Small motions of (u, w, q, θ, v, p, r, φ), SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Linearised {
+    /// Rates of the states by the states.
+    pub states: SMatrix<f64, 8, 8>,
+    /// Rates of the states by the moving mass's axial position, m, and rotation, rad.
+    pub inputs: SMatrix<f64, 8, 2>,
+}
+
+/// The derivatives of the full equations at a glide, exact.
+#[must_use]
+pub fn linearised(vehicle: &Vehicle, glide: &Glide, roll: RollKinematics) -> Linearised {
+    let (trim, plant) = (Helix::from(glide), Plant::<DualSVec64<2>>::new(vehicle));
+    let along = |value: f64, place: usize| DualSVec64::from_re(value).derivative(place);
+    let states = resting_states(&trim).map(DualSVec64::from_re);
+    let place = [along(trim.r_px_m, 0), along(trim.mu_rad, 1)];
+    let rows = rates(&plant, &states, place, DualSVec64::from_re(trim.net_mass_kg), roll);
+    let inputs = SMatrix::from_fn(|i, j| rows[i].eps.unwrap_generic(Const::<2>, Const::<1>)[j]);
+    Linearised { states: jacobian(&Plant::<DualSVec64<8>>::new(vehicle), &trim, roll), inputs }
+}
+
 /// Derivative of (u̇, ẇ, q̇, θ̇, v̇, ṗ, ṙ, φ̇) by (u, w, q, θ, v, p, r, φ).
 pub(crate) fn jacobian<T: Real + DualNum>(
     plant: &Plant<DualSVec<T, 8>>,
@@ -112,29 +133,44 @@ pub(crate) fn jacobian<T: Real + DualNum>(
     roll: RollKinematics,
 ) -> SMatrix<T, 8, 8> {
     let constant = DualSVec::<T, 8>::from_re;
-    let (none, zero) = (T::constant(0.0), constant(T::constant(0.0)));
-    let velocity = trim.velocity_m_s();
-    let [u, w, q, v, p, r] = [(velocity.x, 0), (velocity.z, 1), (none, 2), (velocity.y, 4), (none, 5), (none, 6)]
-        .map(|(value, place)| constant(value).derivative(place));
-    let (theta, phi) = (constant(trim.pitch_rad).derivative(3), constant(trim.roll_rad).derivative(7));
+    let at = resting_states(trim);
+    let states = std::array::from_fn(|place| constant(at[place]).derivative(place));
+    let rows = rates(plant, &states, [trim.r_px_m, trim.mu_rad].map(constant), constant(trim.net_mass_kg), roll);
+    SMatrix::from_fn(|i, j| rows[i].eps.unwrap_generic(Const::<8>, Const::<1>)[j])
+}
+
+/// (u, w, q, θ, v, p, r, φ) of a straight glide.
+fn resting_states<T: Real>(trim: &Helix<T>) -> [T; 8] {
+    let (velocity, none) = (trim.velocity_m_s(), T::constant(0.0));
+    [velocity.x, velocity.z, none, trim.pitch_rad, velocity.y, none, none, trim.roll_rad]
+}
+
+/// (u̇, ẇ, q̇, θ̇, v̇, ṗ, ṙ, φ̇) with the moving mass locked at its axial position and rotation.
+fn rates<T: Real>(
+    plant: &Plant<T>,
+    [u, w, q, theta, v, p, r, phi]: &[T; 8],
+    [r_px_m, mu_rad]: [T; 2],
+    net_mass_kg: T,
+    roll: RollKinematics,
+) -> [T; 8] {
+    let zero = T::constant(0.0);
     let state = State {
-        quaternion: quaternion_from_euler(&Vector3::new(phi, theta, zero)),
-        velocity_m_s: Vector3::new(u, v, w),
-        rate_rad_s: Vector3::new(p, q, r),
-        r_px_m: constant(trim.r_px_m),
-        mu_rad: constant(trim.mu_rad),
-        ..State::at_rest(plant.displaced_volume_m3(constant(trim.net_mass_kg)))
+        quaternion: quaternion_from_euler(&Vector3::new(*phi, *theta, zero)),
+        velocity_m_s: Vector3::new(*u, *v, *w),
+        rate_rad_s: Vector3::new(*p, *q, *r),
+        r_px_m,
+        mu_rad,
+        ..State::at_rest(plant.displaced_volume_m3(net_mass_kg))
     };
     let rates = plant.derivative_driven(&state, zero, &plant.still());
-    let [sin_phi, cos_phi, sin_theta, cos_theta] = [Real::sin(phi), Real::cos(phi), Real::sin(theta), Real::cos(theta)];
-    let across = q * sin_phi + r * cos_phi;
+    let (sin_phi, cos_phi) = (phi.sin(), phi.cos());
+    let across = *q * sin_phi + *r * cos_phi;
     let roll_rate = match roll {
-        RollKinematics::Exact => p + across * sin_theta / cos_theta,
-        RollKinematics::Paper => p,
+        RollKinematics::Exact => *p + across * theta.sin() / theta.cos(),
+        RollKinematics::Paper => *p,
     };
     let (dv, dw) = (rates.velocity_m_s, rates.rate_rad_s);
-    let rows = [dv.x, dv.z, dw.y, q * cos_phi - r * sin_phi, dv.y, dw.x, dw.z, roll_rate];
-    SMatrix::from_fn(|i, j| rows[i].eps.unwrap_generic(Const::<8>, Const::<1>)[j])
+    [dv.x, dv.z, dw.y, *q * cos_phi - *r * sin_phi, dv.y, dw.x, dw.z, roll_rate]
 }
 
 fn mode_set(

@@ -82,6 +82,12 @@ impl Drawn {
         }
     }
 
+    /// Everything as its file says, no current.
+    #[must_use]
+    pub fn nominal() -> Self {
+        Self { factors: [1.0; COUNT], ballast_kg: 0.0, current_m_s: [0.0; 2] }
+    }
+
     /// The vehicle that it makes of the one in the file.
     #[must_use]
     pub fn vehicle(&self, nominal: &Vehicle) -> Vehicle {

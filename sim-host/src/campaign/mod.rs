@@ -10,14 +10,7 @@ mod page;
 mod statistics;
 mod table;
 
-use std::{
-    num::NonZero,
-    sync::{
-        atomic::{AtomicUsize, Ordering},
-        mpsc,
-    },
-    thread,
-};
+use std::num::NonZero;
 
 use shared::autopilot::Autopilot;
 
@@ -29,9 +22,10 @@ pub use table::{text, write_csv};
 
 use crate::{
     baseline::Baseline,
-    flight::{FlyingVehicle, Outcome, SensorErrors, fly},
+    flight::{FlyingVehicle, Outcome, SensorErrors, Summary, Tick, fly},
     mission_file::MissionFile,
     ocean::Ocean,
+    parallel,
     pilot::Pilot,
     record::{Record, Sample},
     vehicle::Vehicle,
@@ -108,39 +102,15 @@ pub struct Flown {
 ///
 /// # Errors
 /// What keeps the vehicle from flying, in one line.
-pub fn run(
-    campaign: &Campaign<'_>,
-    threads: NonZero<usize>,
-    mut landed: impl FnMut(&Flown),
-) -> Result<Vec<Flown>, String> {
+pub fn run(campaign: &Campaign<'_>, threads: NonZero<usize>, landed: impl FnMut(&Flown)) -> Result<Vec<Flown>, String> {
     let waters = campaign.waters.iter();
     let parties = waters.flat_map(|water| campaign.pilots.iter().map(move |pilot| (water, pilot)));
     let flights: Vec<_> = parties.flat_map(|party| (1..=campaign.seeds).map(move |seed| (party, seed))).collect();
-    let next = AtomicUsize::new(0);
-    thread::scope(|scope| {
-        let (sender, receiver) = mpsc::channel();
-        for _ in 0..threads.get() {
-            let (sender, next, flights) = (sender.clone(), &next, &flights);
-            scope.spawn(move || {
-                loop {
-                    let index = next.fetch_add(1, Ordering::Relaxed);
-                    let Some(((water, pilot), seed)) = flights.get(index) else { break };
-                    if sender.send((index, fly_one(campaign, water, pilot, *seed))).is_err() {
-                        break;
-                    }
-                }
-            });
-        }
-        drop(sender);
-        let mut flown = Vec::with_capacity(flights.len());
-        for (index, flight) in receiver {
-            let flight = flight?;
-            landed(&flight);
-            flown.push((index, flight));
-        }
-        flown.sort_by_key(|(index, _)| *index);
-        Ok(flown.into_iter().map(|(_, flight)| flight).collect())
-    })
+    let fly = |index: usize| {
+        let ((water, pilot), seed) = flights[index];
+        fly_one(campaign, water, pilot, seed)
+    };
+    parallel::in_order(flights.len(), threads, fly, landed)
 }
 
 /// One flight; its record is measured and dropped.
@@ -152,29 +122,61 @@ fn fly_one(
 ) -> Result<Flown, String> {
     let MissionFile { mission, start, .. } = campaign.file;
     let drawn = Drawn::new(seed, campaign.current_m_s);
-    let vehicle = drawn.vehicle(campaign.vehicle);
-    let ocean = drawn.ocean(ocean, campaign.vehicle, f64::from(mission.dive_to_mm) / 1e3);
-    let flying = FlyingVehicle { sensor_errors: sensor_errors(), ..FlyingVehicle::new(&vehicle)? };
-    let mut record = Record { start: *start, water: vehicle.water.clone(), samples: Vec::new() };
-    let mut pilot = flyer.fresh();
-    let summary = fly(&flying, &ocean, mission, start, seed, pilot.as_mut(), &mut |tick| {
-        record.samples.push(Sample::from(tick));
-    })?;
+    let mut record = Record { start: *start, water: campaign.vehicle.water.clone(), samples: Vec::new() };
+    let flight = DrawnFlight {
+        nominal: campaign.vehicle,
+        charted: ocean,
+        file: campaign.file,
+        drawn: &drawn,
+        seed,
+        sensor_errors: sensor_errors(),
+    };
+    let summary = flight.fly(flyer.fresh().as_mut(), &mut |tick| record.samples.push(Sample::from(tick)))?;
     let seen = Seen { mission, record: &record, summary: &summary };
-    let loss = summary.loss.map(|loss| format!("{loss:?}"));
     Ok(Flown {
         water: name.clone(),
         pilot: flyer.name(),
         seed,
         drawn,
         outcome: summary.outcome,
-        reason: loss.into_iter().chain(summary.aborts.iter().cloned()).collect::<Vec<_>>().join(" "),
+        reason: summary.reason(),
         values: METRICS.iter().map(|metric| (metric.of)(&seen)).collect(),
     })
 }
 
+/// A flight of the vehicle, in the water and with the instruments that a seed drew.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct DrawnFlight<'a> {
+    /// The vehicle of the file.
+    pub(crate) nominal: &'a Vehicle,
+    /// The water as it is charted.
+    pub(crate) charted: &'a Ocean,
+    /// What is flown.
+    pub(crate) file: &'a MissionFile,
+    /// What is different about vehicle and water.
+    pub(crate) drawn: &'a Drawn,
+    /// Seed of all errors of the instruments.
+    pub(crate) seed: u64,
+    /// How large these are.
+    pub(crate) sensor_errors: SensorErrors,
+}
+
+impl DrawnFlight<'_> {
+    /// Flies it; `observe` sees every tick.
+    ///
+    /// # Errors
+    /// What keeps the vehicle from flying, in one line.
+    pub(crate) fn fly(&self, pilot: &mut dyn Pilot, observe: &mut dyn FnMut(&Tick<'_>)) -> Result<Summary, String> {
+        let MissionFile { mission, start, .. } = self.file;
+        let vehicle = self.drawn.vehicle(self.nominal);
+        let ocean = self.drawn.ocean(self.charted, self.nominal, f64::from(mission.dive_to_mm) / 1e3);
+        let flying = FlyingVehicle { sensor_errors: self.sensor_errors, ..FlyingVehicle::new(&vehicle)? };
+        fly(&flying, &ocean, mission, start, self.seed, pilot, observe)
+    }
+}
+
 /// The usual instruments, but for the compass: it deviates more.
-fn sensor_errors() -> SensorErrors {
+pub(crate) fn sensor_errors() -> SensorErrors {
     let mut errors = SensorErrors::default();
     errors.compass.heading_bias_deg = COMPASS_DEVIATION_DEG;
     errors

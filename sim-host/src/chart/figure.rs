@@ -86,6 +86,18 @@ impl Scale {
         Self { label: String::new(), range: Some([-0.7, count as f64 - 0.3]), downwards: true, marked: false }
     }
 
+    /// Both axes around all points, a unit as long on one as on the other: a map.
+    pub fn equal([x, y]: [&str; 2], points: impl Iterator<Item = [f64; 2]>) -> [Self; 2] {
+        let points: Vec<[f64; 2]> = points.collect();
+        let [level, upright] = [0, 1].map(|axis| {
+            let axis = Axis::around(points.iter().map(|point| point[axis]), f64::MIN_POSITIVE, MARKS);
+            [(axis.min + axis.max) / 2.0, axis.max - axis.min]
+        });
+        let unit = (level[1] / PLOT_PX[0]).max(upright[1] / PLOT_PX[1]);
+        let around = |[middle, _]: [f64; 2], px: f64| [middle - unit * px / 2.0, middle + unit * px / 2.0];
+        [Self::exactly(x, around(level, PLOT_PX[0])), Self::exactly(y, around(upright, PLOT_PX[1]))]
+    }
+
     fn axis(&self, values: impl Iterator<Item = f64>) -> Axis {
         let axis = match self.range {
             Some([min, max]) => Axis::exactly(min, max, MARKS),
@@ -149,6 +161,8 @@ pub enum Mark {
     To,
     /// A value of ours: a full dot.
     Point,
+    /// One of many values: a small dot.
+    Dot,
     /// A printed value: an open circle.
     Printed,
     /// A few words.
@@ -165,6 +179,7 @@ impl Mark {
             Self::From => ("from", Shape::Circle),
             Self::To => ("to", Shape::Square),
             Self::Point => ("point", Shape::Circle),
+            Self::Dot => ("point", Shape::Dot),
             Self::Printed => ("printed", Shape::Circle),
             Self::Note(words) => ("note", Shape::Words(words.clone(), Anchor::Middle)),
             Self::Before(words) => ("note", Shape::Words(words.clone(), Anchor::End)),
@@ -315,6 +330,15 @@ mod tests {
         let rows = panel(lines);
         let rows = rows.key_rows();
         assert_eq!(rows, [[("s0", "one of them, said at length")], [("d1", "another one, said at length")]]);
+    }
+
+    /// 400 × 280 px hold 112 m of north, 6 % of room on either side, in 280 px: 0.4 m per px both ways.
+    #[test]
+    fn a_map_is_as_wide_as_its_box_makes_it() {
+        let [x, y] = Scale::equal(["east", "north"], [[10.0, 0.0], [30.0, 100.0]].into_iter());
+        let width = |scale: &Scale| scale.range.map(|[min, max]| max - min).unwrap();
+        assert!((width(&x) - 160.0).abs() < 1e-9 && (width(&y) - 112.0).abs() < 1e-9, "{x:?} {y:?}");
+        assert_eq!(x.range.map(|[min, max]| min + max), Some(40.0));
     }
 
     #[test]

@@ -62,6 +62,7 @@ pub(crate) struct Spot {
 #[derive(Clone, Debug)]
 pub(crate) enum Shape {
     Circle,
+    Dot,
     Square,
     Words(String, Anchor),
 }
@@ -222,8 +223,9 @@ impl Plot {
         for spot in &self.spots {
             let (x, y) = (percent(self.level.share(spot.at[0])), percent(self.height(spot.at[1])));
             match &spot.shape {
-                Shape::Circle => {
-                    plot.append(Circle::new().set("class", spot.class).set("cx", x).set("cy", y).set("r", 5))
+                Shape::Circle | Shape::Dot => {
+                    let radius = if matches!(spot.shape, Shape::Dot) { 2.2 } else { 5.0 };
+                    plot.append(Circle::new().set("class", spot.class).set("cx", x).set("cy", y).set("r", radius));
                 }
                 Shape::Square => {
                     let square = Rectangle::new().set("class", spot.class).set("x", x).set("y", y);

@@ -66,9 +66,7 @@ struct Answer<'a> {
 }
 
 pub(super) fn run(args: &Args) -> Result<(), String> {
-    if !(0.0..=CURRENT_M_S).contains(&args.current) {
-        return Err(format!("--current {}: a speed from 0 to {CURRENT_M_S} m/s", args.current));
-    }
+    check_current(args.current)?;
     let file = MissionFile::load(&args.mission).map_err(|error| error.to_string())?;
     let vehicle = super::load_vehicle(args.vehicle.as_ref().unwrap_or(&file.vehicle))?;
     FlyingVehicle::new(&vehicle)?;
@@ -97,6 +95,14 @@ pub(super) fn run(args: &Args) -> Result<(), String> {
         return super::print_json(&Answer { mission, vehicle, seeds, current_m_s: args.current, results: &tallies });
     }
     super::print(&format!("{title}\n\n{}\n{}\n{}", campaign::text(&tallies), csv.display(), html.display()))
+}
+
+/// Whether a flight may meet a current of this speed.
+pub(super) fn check_current(current_m_s: f64) -> Result<(), String> {
+    if !(0.0..=CURRENT_M_S).contains(&current_m_s) {
+        return Err(format!("--current {current_m_s}: a speed from 0 to {CURRENT_M_S} m/s"));
+    }
+    Ok(())
 }
 
 fn title(args: &Args, vehicle: &Vehicle) -> String {

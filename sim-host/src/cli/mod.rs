@@ -5,7 +5,9 @@ mod design;
 mod endurance;
 mod fly;
 mod locus;
+mod margins;
 mod paper;
+mod plan;
 mod polar;
 mod progress;
 mod schema;
@@ -37,6 +39,8 @@ struct Cli {
 enum Command {
     /// Fly a mission, controller in the loop, and report on it
     Fly(fly::Args),
+    /// Plan a mission: how long, how much energy, and where the vehicle will surface, with an ellipse of uncertainty
+    Plan(plan::Args),
     /// Fly a mission with many vehicles, each a little off its file, and compare the autopilot with a classical controller
     Campaign(campaign::Args),
     /// Find a steady straight glide: wings level, or banked if the vehicle is not symmetric
@@ -45,6 +49,8 @@ enum Command {
     Turn(stability::TurnArgs),
     /// Disturb a glide: eigenvalues and modes
     Modes(stability::ModesArgs),
+    /// Close the controller's loops around the linearised plant: their gain and delay margins over the trim table's envelope
+    Margins(margins::Args),
     /// Vary the shape: how the modes move, as root loci
     Locus(locus::Args),
     /// Rank the geometry: exact derivatives of performance, modes and turning by every parameter
@@ -83,10 +89,12 @@ struct EvalArgs {
 pub fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Fly(args) => fly::run(&args),
+        Command::Plan(args) => plan::run(&args),
         Command::Campaign(args) => campaign::run(&args),
         Command::Trim(args) => trim::run(&args),
         Command::Turn(args) => stability::turn(&args),
         Command::Modes(args) => stability::run_modes(&args),
+        Command::Margins(args) => margins::run(&args),
         Command::Locus(args) => locus::run(&args),
         Command::Sensitivity(args) => sensitivity::run(&args),
         Command::Design(args) => design::run(&args),

@@ -9,6 +9,7 @@ use shared::{
 };
 
 use super::{EnergyUsed, LINGER_S, TICK_S, Tick, actuators::Actuators, is_over};
+use crate::mission_file::{M_PER_DEG, Start};
 
 /// How a flight ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -41,6 +42,16 @@ pub struct NorthEast {
     pub north_m: f64,
     /// East, m.
     pub east_m: f64,
+}
+
+impl NorthEast {
+    /// Latitude, and longitude from −180 to below 180, deg; as the controller reckons, on a sphere.
+    #[must_use]
+    pub fn latitude_longitude_deg(&self, start: &Start) -> [f64; 2] {
+        let latitude_deg = start.latitude_deg + self.north_m / M_PER_DEG;
+        let east_deg = self.east_m / (M_PER_DEG * libm::cos(start.latitude_deg.to_radians()));
+        [latitude_deg, (start.longitude_deg + east_deg + 180.0).rem_euclid(360.0) - 180.0]
+    }
 }
 
 /// Where the vehicle came up.
@@ -81,6 +92,15 @@ pub struct Summary {
     pub real_time_factor: f64,
     /// SHA-256 of all commands as encoded on the wire.
     pub trace_hash: String,
+}
+
+impl Summary {
+    /// Why it did not come back or ended early; empty if neither.
+    #[must_use]
+    pub fn reason(&self) -> String {
+        let loss = self.loss.map(|loss| format!("{loss:?}"));
+        loss.into_iter().chain(self.aborts.iter().cloned()).collect::<Vec<_>>().join(" ")
+    }
 }
 
 /// Gathers the summary tick by tick.

@@ -117,6 +117,36 @@ impl Default for SensorErrors {
     }
 }
 
+impl SensorErrors {
+    /// Instruments that show what is, but for their range, step and lag.
+    #[must_use]
+    pub fn none() -> Self {
+        let (usual, none) = (Self::default(), 0.0);
+        let pressure =
+            PressureErrors { noise_pa: none, bias_pa: none, drift_pa_h: none, creep: none, ..usual.pressure };
+        let compass = CompassErrors {
+            tilt_noise_deg: none,
+            heading_noise_deg: none,
+            rate_noise_deg_s: none,
+            tilt_bias_deg: none,
+            heading_bias_deg: none,
+            battery_ut_m: none,
+            battery_roll_ut: none,
+            depth_ut_km: none,
+            ..usual.compass
+        };
+        let altimeter = AltimeterErrors { dropout: none, noise_m: none, ..usual.altimeter };
+        let housekeeping = HousekeepingErrors {
+            leak_noise_v: none,
+            leak_glitches_per_h: none,
+            vacuum_noise_pa: none,
+            voltage_noise_v: none,
+            charge_gain: none,
+        };
+        Self { pressure, compass, altimeter, housekeeping, gps_noise_m: none, pot_noise: none, ..usual }
+    }
+}
+
 impl Default for PressureErrors {
     /// Noise is that of a 0.01 % sensor of 20 bar; all else chosen.
     fn default() -> Self {

@@ -12,12 +12,8 @@ pub use errors::{AltimeterErrors, CompassErrors, HousekeepingErrors, PressureErr
 
 use shared::device::{GpsFix, Measurements};
 
-use super::{FlyingVehicle, TICK_S, actuators::Actuators, faults::Instrument};
-use crate::{
-    mission_file::{M_PER_DEG, Start},
-    ocean::Sample,
-    plant::State,
-};
+use super::{FlyingVehicle, NorthEast, TICK_S, actuators::Actuators, faults::Instrument};
+use crate::{mission_file::Start, ocean::Sample, plant::State};
 use altimeter::Altimeter;
 use antenna::{Antenna, Receiver};
 use compass::Compass;
@@ -150,10 +146,8 @@ impl<'a> Sensors<'a> {
         if !self.satellites.hears(antenna_is_clear, errors.gps_acquisition_s) {
             return None;
         }
-        let latitude_deg = self.start.latitude_deg + (state.position_m.x + error_m[0]) / M_PER_DEG;
-        let east_deg =
-            (state.position_m.y + error_m[1]) / (M_PER_DEG * libm::cos(self.start.latitude_deg.to_radians()));
-        let longitude_deg = (self.start.longitude_deg + east_deg + 180.0).rem_euclid(360.0) - 180.0;
+        let place = NorthEast { north_m: state.position_m.x + error_m[0], east_m: state.position_m.y + error_m[1] };
+        let [latitude_deg, longitude_deg] = place.latitude_longitude_deg(&self.start);
         let e7 = |degrees: f64| (degrees * 1e7).round() as i32;
         Some(GpsFix { lat_e7: e7(latitude_deg), lon_e7: e7(longitude_deg) })
     }

@@ -1,7 +1,7 @@
 //! Heading by the rotation of the moving mass; how much it turns, and which way, stands in the trim table.
 
 use crate::{
-    device::{RAD_PER_CDEG, TICK_HZ},
+    device::{RAD_PER_CDEG, TICK_HZ, TICK_S},
     math,
     parameters::Parameters,
     pitch::Steady,
@@ -16,7 +16,45 @@ pub struct HeadingLoop {
     period_ticks: u32,
     mu_limit_rad: f32,
     mu_deadband_cdeg: i32,
+    bias_limit_rad_s: f32,
 }
+
+/// What one side (dives, climbs) has learned, and the turn under way.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct TurnTrim {
+    bias_rad_s: f32,
+    turning: bool,
+    error_sum_cdeg: i32,
+    samples: i32,
+    /// Mean error of the period before, if the mass has hung still since it began.
+    still_cdeg: Option<i32>,
+}
+
+impl TurnTrim {
+    /// Turn rate with the mass hanging straight down, beyond the table's, rad/s.
+    #[must_use]
+    pub const fn bias_rad_s(&self) -> f32 {
+        self.bias_rad_s
+    }
+
+    /// Forgets the turn under way: another glide began.
+    pub const fn begin(&mut self) {
+        *self = Self { bias_rad_s: self.bias_rad_s, turning: true, error_sum_cdeg: 0, samples: 0, still_cdeg: None };
+    }
+
+    /// Mean error since the last look, 0.01°.
+    fn look(&mut self) -> i32 {
+        let mean_cdeg = self.error_sum_cdeg.checked_div(self.samples).unwrap_or(0);
+        self.error_sum_cdeg = 0;
+        self.samples = 0;
+        mean_cdeg
+    }
+}
+
+/// A turn goes on until its error is this part of the deadband: at its edge it would begin again and again.
+const ENOUGH: i32 = 4;
+/// Part of a difference of turn rates that is believed at once.
+const BIAS_SHARE: f32 = 0.25;
 
 impl HeadingLoop {
     /// Takes its tuning.
@@ -28,33 +66,58 @@ impl HeadingLoop {
             period_ticks: parameters.heading_period_s.unsigned_abs().saturating_mul(TICK_HZ),
             mu_limit_rad: parameters.mu_limit_cdeg as f32 * RAD_PER_CDEG,
             mu_deadband_cdeg: parameters.mu_deadband_cdeg,
+            bias_limit_rad_s: parameters.turn_bias_limit_mdeg_s as f32 / 10.0 * RAD_PER_CDEG,
         }
     }
 
     /// Where the mass shall be rotated to, 0.01°, for a heading error (target − heading, short way round).
     ///
-    /// It looks once per period, and leaves the mass where it is unless the change is worth a move.
+    /// It looks once per period, at the mean error. A turn begins beyond the deadband and ends well inside it; while it
+    /// lasts the mass moves only if the change is worth a move, and at its end it goes back to where the vehicle flies
+    /// straight.
     pub fn mu_cdeg(
         &self,
+        trim: &mut TurnTrim,
         table: &TrimTable<'_>,
         steady: &Steady,
         ticks_in_phase: u32,
         error_cdeg: i32,
         mu_cdeg: i32,
     ) -> i32 {
+        trim.error_sum_cdeg = trim.error_sum_cdeg.saturating_add(error_cdeg);
+        trim.samples = trim.samples.saturating_add(1);
         if ticks_in_phase.checked_rem(self.period_ticks) != Some(0) {
             return mu_cdeg;
         }
-        let turn_rate_rad_s = if error_cdeg.saturating_abs() <= self.deadband_cdeg {
-            0.0
-        } else {
-            error_cdeg as f32 * RAD_PER_CDEG / self.time_s
-        };
+        let mean_cdeg = trim.look();
         let near_rad = mu_cdeg as f32 * RAD_PER_CDEG;
+        let band_cdeg = if trim.turning { self.deadband_cdeg / ENOUGH } else { self.deadband_cdeg };
+        trim.turning = mean_cdeg.saturating_abs() > band_cdeg;
+        if !trim.turning
+            && let Some(before_cdeg) = trim.still_cdeg
+        {
+            self.learn(trim, table, steady, before_cdeg.saturating_sub(mean_cdeg), near_rad);
+        }
+        let wanted_rad_s = if trim.turning { mean_cdeg as f32 * RAD_PER_CDEG / self.time_s } else { 0.0 };
+        let turn_rate_rad_s = wanted_rad_s - trim.bias_rad_s;
         let wanted_rad =
             table.mu_for_turn(steady.path_angle_rad, steady.net_mass_kg, turn_rate_rad_s, near_rad, self.mu_limit_rad);
         let wanted_cdeg = math::round_to_i32(wanted_rad / RAD_PER_CDEG);
-        if wanted_cdeg.saturating_sub(mu_cdeg).saturating_abs() > self.mu_deadband_cdeg { wanted_cdeg } else { mu_cdeg }
+        let change_cdeg = wanted_cdeg.saturating_sub(mu_cdeg).saturating_abs();
+        let ends = !trim.turning && trim.still_cdeg.is_none();
+        let moves = change_cdeg > self.mu_deadband_cdeg || ends;
+        trim.still_cdeg = (!moves && !trim.turning || change_cdeg == 0).then_some(mean_cdeg);
+        if moves { wanted_cdeg } else { mu_cdeg }
+    }
+
+    /// Takes the change of heading over a period in which the mass hung still.
+    fn learn(&self, trim: &mut TurnTrim, table: &TrimTable<'_>, steady: &Steady, turned_cdeg: i32, mu_rad: f32) {
+        let period_s = self.period_ticks as f32 * TICK_S;
+        let turned_rad_s = turned_cdeg as f32 * RAD_PER_CDEG / period_s;
+        let expected_rad_s =
+            table.look_up(steady.path_angle_rad, steady.net_mass_kg, mu_rad).turn_rate_rad_s + trim.bias_rad_s;
+        let learned = trim.bias_rad_s + BIAS_SHARE * (turned_rad_s - expected_rad_s);
+        trim.bias_rad_s = math::clamp(learned, -self.bias_limit_rad_s, self.bias_limit_rad_s);
     }
 }
 
@@ -67,7 +130,7 @@ mod tests {
         let file = file();
         let table = TrimTable::parse(&file).unwrap();
         let steady = Steady { path_angle_rad, net_mass_kg: 0.25 };
-        HeadingLoop::new(&Parameters::default()).mu_cdeg(&table, &steady, 0, error_cdeg, 0)
+        HeadingLoop::new(&Parameters::default()).mu_cdeg(&mut TurnTrim::default(), &table, &steady, 0, error_cdeg, 0)
     }
 
     #[test]

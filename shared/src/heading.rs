@@ -12,7 +12,7 @@ use crate::{
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HeadingLoop {
     deadband_cdeg: i32,
-    time_s: f32,
+    time_s: Option<f32>,
     period_ticks: u32,
     mu_limit_rad: f32,
     mu_deadband_cdeg: i32,
@@ -62,7 +62,7 @@ impl HeadingLoop {
     pub fn new(parameters: &Parameters) -> Self {
         Self {
             deadband_cdeg: parameters.heading_deadband_cdeg,
-            time_s: parameters.heading_time_s as f32,
+            time_s: (parameters.heading_time_s > 0).then_some(parameters.heading_time_s as f32),
             period_ticks: parameters.heading_period_s.unsigned_abs().saturating_mul(TICK_HZ),
             mu_limit_rad: parameters.mu_limit_cdeg as f32 * RAD_PER_CDEG,
             mu_deadband_cdeg: parameters.mu_deadband_cdeg,
@@ -98,7 +98,8 @@ impl HeadingLoop {
         {
             self.learn(trim, table, steady, before_cdeg.saturating_sub(mean_cdeg), near_rad);
         }
-        let wanted_rad_s = if trim.turning { mean_cdeg as f32 * RAD_PER_CDEG / self.time_s } else { 0.0 };
+        let wanted_rad_s =
+            if trim.turning { mean_cdeg as f32 * RAD_PER_CDEG / self.time_s(table, steady) } else { 0.0 };
         let turn_rate_rad_s = wanted_rad_s - trim.bias_rad_s;
         let wanted_rad =
             table.mu_for_turn(steady.path_angle_rad, steady.net_mass_kg, turn_rate_rad_s, near_rad, self.mu_limit_rad);
@@ -108,6 +109,20 @@ impl HeadingLoop {
         let moves = change_cdeg > self.mu_deadband_cdeg || ends;
         trim.still_cdeg = (!moves && !trim.turning || change_cdeg == 0).then_some(mean_cdeg);
         if moves { wanted_cdeg } else { mu_cdeg }
+    }
+
+    /// Time in which an error shall be gone, s.
+    ///
+    /// Heading integrates a turn rate that lags by the turn length over the speed and by the period, half of it for the mean
+    /// and half until the next look. An integrator of time T behind a lag τ is damped by ½√(T/τ): 1/√2 at T = 2τ.
+    fn time_s(&self, table: &TrimTable<'_>, steady: &Steady) -> f32 {
+        self.time_s.unwrap_or_else(|| {
+            let [dive_m, climb_m] = table.vehicle().glide.turn_length_m;
+            let length_m = if steady.path_angle_rad < 0.0 { dive_m } else { climb_m };
+            let speed_m_s = table.look_up(steady.path_angle_rad, steady.net_mass_kg, 0.0).speed_m_s;
+            let period_s = self.period_ticks as f32 * TICK_S;
+            2.0 * (math::finite_or(length_m / speed_m_s, 0.0) + period_s)
+        })
     }
 
     /// Takes the change of heading over a period in which the mass hung still.

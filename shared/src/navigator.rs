@@ -354,12 +354,67 @@ mod tests {
         let table = TrimTable::parse(&file).unwrap();
         let mut navigator = Navigator::default();
         for tick in 0..4_000 {
-            navigator.update(table.vehicle(), tick, &at(0, 9_000), false);
+            let depth_m = 0.77 * 35_f32.to_radians().sin() * TICK_S * tick as f32;
+            navigator.update(table.vehicle(), tick, &at((depth_m * 9_810.0) as i32, 9_000), false);
         }
         let (north_mm, east_mm) = navigator.position_mm();
         // 0.77 m/s at −35° for 1000 s is 630.7 m; getting up to speed costs some metres.
         assert!((615_000..631_500).contains(&east_mm), "{east_mm}");
         assert!(north_mm.abs() < 100, "{north_mm}");
+    }
+
+    /// A vehicle with a fifth more drag than its file says sinks slower by √1.2, and goes that much less far.
+    #[test]
+    fn a_depth_rate_that_the_model_does_not_give_slows_dead_reckoning() {
+        let file = file();
+        let table = TrimTable::parse(&file).unwrap();
+        let mut navigator = Navigator::default();
+        let speed_m_s = 0.77 / 1.2_f32.sqrt();
+        let mut fouled = |from: u32, to: u32| {
+            for tick in from..to {
+                let depth_m = speed_m_s * 35_f32.to_radians().sin() * TICK_S * tick as f32;
+                navigator.update(table.vehicle(), tick, &at((depth_m * 9_810.0) as i32, 9_000), false);
+            }
+            navigator.position_mm().1
+        };
+        let (early_mm, late_mm) = (fouled(0, 2_000), fouled(2_000, 4_000));
+        let expected_mm = speed_m_s * 35_f32.to_radians().cos() * 500.0 * 1e3;
+        assert!(((late_mm - early_mm) as f32 / expected_mm - 1.0).abs() < 0.005, "{} mm", late_mm - early_mm);
+    }
+
+    #[test]
+    fn the_water_of_the_mission_makes_depth_of_pressure() {
+        let file = file();
+        let table = TrimTable::parse(&file).unwrap();
+        for (water_density_kg_m3, depth_m) in [(0, 100.0), (1_025, 97.561)] {
+            let mut navigator = Navigator::new(&Parameters { water_density_kg_m3, ..Parameters::default() });
+            navigator.update(table.vehicle(), 0, &at(981_000, 0), false);
+            assert!((navigator.depth_m - depth_m).abs() < 1e-3, "{} m", navigator.depth_m);
+        }
+    }
+
+    /// An hour's dive to the east in a current: the fix after it teaches the current, and the next dive reckons with it.
+    #[test]
+    fn the_fix_after_a_dive_teaches_the_current() {
+        let file = file();
+        let table = TrimTable::parse(&file).unwrap();
+        let mut navigator = Navigator::default();
+        let fix = |lat_e7| Measurements { gps: Some(GpsFix { lat_e7, lon_e7: 0 }), ..Measurements::silent() };
+        navigator.update(table.vehicle(), 0, &fix(0), true);
+        let level = Measurements { vbd_ul: 0, pressure_pa: None, ..at(0, 9_000) };
+        for tick in 1..4 * 3_600 {
+            navigator.update(table.vehicle(), tick, &level, false);
+        }
+        // 0.1 m/s for an hour is 360 m, 1e-7° of latitude 1.1 cm.
+        navigator.update(table.vehicle(), 4 * 3_600, &fix(32_375), true);
+        let current_m_s = navigator.drift().current_m_s();
+        assert!((current_m_s.x - 0.1).abs() < 0.001, "{current_m_s}");
+        let before_mm = navigator.position_mm().0;
+        for tick in 1..=4_000 {
+            navigator.update(table.vehicle(), 4 * 3_600 + tick, &level, false);
+        }
+        let drifted_mm = navigator.position_mm().0 - before_mm;
+        assert!((99_000..101_000).contains(&drifted_mm), "{drifted_mm} mm in 1000 s");
     }
 
     #[test]

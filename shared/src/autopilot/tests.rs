@@ -177,7 +177,7 @@ fn what_cannot_be_flown_is_refused() {
     let unflyable = Unflyable { field: "dive_to_mm", value: 250_000, min: 1_000, max: 200_000 };
     let refused = Autopilot::new(&table, &deep, &Parameters::default()).unwrap_err();
     assert_eq!(refused, ConfigurationError::Mission(unflyable));
-    let mistuned = Parameters { heading_time_s: 1, ..Parameters::default() };
+    let mistuned = Parameters { heading_period_s: 0, ..Parameters::default() };
     let refused = Autopilot::new(&table, &mission(), &mistuned).unwrap_err();
-    assert!(matches!(refused, ConfigurationError::Parameter(row, 1) if row.name == "heading_time_s"));
+    assert!(matches!(refused, ConfigurationError::Parameter(row, 0) if row.name == "heading_period_s"));
 }

@@ -47,14 +47,23 @@ pub struct Campaign<'a> {
     pub vehicle: &'a Vehicle,
     /// What is flown.
     pub file: &'a MissionFile,
-    /// Where: names and oceans.
-    pub waters: &'a [(String, Ocean)],
-    /// Who flies; they know the vehicle of the file.
-    pub pilots: &'a [Flyer<'a>],
+    /// Where, and who flies there.
+    pub waters: &'a [Water<'a>],
     /// Seeds 1 to this one.
     pub seeds: u64,
     /// Speed of a steady current from an unknown direction, m/s.
     pub current_m_s: f64,
+}
+
+/// One water.
+#[derive(Clone, Debug)]
+pub struct Water<'a> {
+    /// Its name.
+    pub name: String,
+    /// What it is.
+    pub ocean: Ocean,
+    /// Who flies there; they know the vehicle of the file, and what a chart tells of the water.
+    pub pilots: Vec<Flyer<'a>>,
 }
 
 /// Who flies.
@@ -114,7 +123,7 @@ pub fn run(
     mut landed: impl FnMut(&Flown),
 ) -> Result<Vec<Flown>, String> {
     let waters = campaign.waters.iter();
-    let parties = waters.flat_map(|water| campaign.pilots.iter().map(move |pilot| (water, pilot)));
+    let parties = waters.flat_map(|water| water.pilots.iter().map(move |pilot| (water, pilot)));
     let flights: Vec<_> = parties.flat_map(|party| (1..=campaign.seeds).map(move |seed| (party, seed))).collect();
     let next = AtomicUsize::new(0);
     thread::scope(|scope| {
@@ -144,16 +153,11 @@ pub fn run(
 }
 
 /// One flight; its record is measured and dropped.
-fn fly_one(
-    campaign: &Campaign<'_>,
-    (name, ocean): &(String, Ocean),
-    flyer: &Flyer<'_>,
-    seed: u64,
-) -> Result<Flown, String> {
+fn fly_one(campaign: &Campaign<'_>, water: &Water<'_>, flyer: &Flyer<'_>, seed: u64) -> Result<Flown, String> {
     let MissionFile { mission, start, .. } = campaign.file;
     let drawn = Drawn::new(seed, campaign.current_m_s);
     let vehicle = drawn.vehicle(campaign.vehicle);
-    let ocean = drawn.ocean(ocean, campaign.vehicle, f64::from(mission.dive_to_mm) / 1e3);
+    let ocean = drawn.ocean(&water.ocean, campaign.vehicle, f64::from(mission.dive_to_mm) / 1e3);
     let flying = FlyingVehicle { sensor_errors: sensor_errors(), ..FlyingVehicle::new(&vehicle)? };
     let mut record = Record { start: *start, water: vehicle.water.clone(), samples: Vec::new() };
     let mut pilot = flyer.fresh();
@@ -163,7 +167,7 @@ fn fly_one(
     let seen = Seen { mission, record: &record, summary: &summary };
     let loss = summary.loss.map(|loss| format!("{loss:?}"));
     Ok(Flown {
-        water: name.clone(),
+        water: water.name.clone(),
         pilot: flyer.name(),
         seed,
         drawn,

@@ -294,7 +294,7 @@ impl<'a> Config<'a> {
             pitch_rate_rad_s: self.pitch_rate_rad_s,
             pass_net_mass_kg: net_mass_kg(PASS_SHARE * next.net_mass_kg),
             next_net_mass_kg: net_mass_kg(next.net_mass_kg),
-            net_mass_rate_kg_s: kg_s,
+            net_mass_rate_kg_s: kg_s / navigator.buoyancy().drag_factor(),
         }
     }
 }

@@ -8,8 +8,8 @@ use crate::{device::TICK_S, math, parameters::Parameters};
 
 /// Time after buoyancy last changed before a glide counts as steady, s: speed is then the polar's to a few percent.
 const SETTLE_S: f32 = 40.0;
-/// Time in which a difference of depth rates is learned, s: longer than the speed's own lag of some 20 s.
-const LEARNING_S: f32 = 40.0;
+/// Time in which a difference of depth rates is learned, s: no shorter than the speed's own lag of some 20 s.
+const LEARNING_S: f32 = 25.0;
 /// Change of net mass that is more than the buoyancy device's noise, kg.
 const CHANGE_KG: f32 = 0.01;
 /// Slower than this, vertical speed says nothing about weight, m/s.
@@ -148,7 +148,7 @@ mod tests {
     fn a_weight_error_is_found_in_one_glide() {
         let mut buoyancy = Buoyancy::new(&Parameters::default());
         fly(&mut buoyancy, 1, 0.03, 1.0);
-        // 560 s of learning at 40 s leave nothing of it.
+        // 560 s of learning at 25 s leave nothing of it.
         assert!((buoyancy.offset_kg() - 0.03).abs() < 1e-4, "{buoyancy:?}");
         fly(&mut buoyancy, 2, 0.03, 1.0);
         assert!((buoyancy.drag_factor() - 1.0).abs() < 0.01, "weight is not taken for drag: {buoyancy:?}");

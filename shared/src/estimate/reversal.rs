@@ -121,3 +121,63 @@ impl Rollout {
 fn toward(from: f32, to: f32, step: f32) -> f32 {
     from + math::clamp(to - from, -step, step)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::table::{TrimTable, tests::file};
+
+    const PITCH_RAD: f32 = -0.59;
+    const NET_MASS_KG: f32 = 0.2129;
+
+    /// The turning depth of the made-up vehicle with one pitch throughout, and the sinking it starts from.
+    fn turns_after_m(net_mass_rate_kg_s: f32) -> (f32, f32) {
+        let file = file();
+        let vehicle = TrimTable::parse(&file).unwrap().vehicle().clone();
+        let drive = Drive {
+            pitch_rad: PITCH_RAD,
+            roll_rad: 0.0,
+            pitch_rate_rad_s: 0.0,
+            r_px_m: 0.0,
+            net_mass_kg: NET_MASS_KG,
+            density_ratio: 1.0,
+        };
+        let plan = Plan {
+            level_pitch_rad: PITCH_RAD,
+            next_pitch_rad: 0.59,
+            pitch_rate_rad_s: 0.02,
+            pass_net_mass_kg: -0.1,
+            next_net_mass_kg: -NET_MASS_KG,
+            net_mass_rate_kg_s,
+        };
+        let model = Model::new(&vehicle.glide, vehicle.gravity_m_s2, STEP_S);
+        let glide = (0..300).fold(Motion::at_rest(), |motion, _| model.step(&motion, &drive));
+        let mut forecast = Forecast::default();
+        for _ in 0..(LONGEST_S / STEP_S) as u32 {
+            forecast.advance(&model, &plan, &glide, &drive);
+        }
+        (forecast.lead_m(), glide.sink_rate_m_s(PITCH_RAD, 0.0))
+    }
+
+    /// When the pump is slow the speed follows the root of the net mass: ∫√(1 − t/T) over T is 2/3 T.
+    #[test]
+    fn a_slow_reversal_takes_two_thirds_of_the_way_at_full_speed() {
+        let (lead_m, sink_m_s) = turns_after_m(NET_MASS_KG / 600.0);
+        let quasi_steady_m = 2.0 / 3.0 * sink_m_s * 600.0;
+        // Speed V lags by τ V₀/V, τ = m₁/(2 D₀ V₀) = 18 s, which adds τ ln(V₀/V) at V₀: 36 s of 400 s down to an eighth of it.
+        assert!((1.06..1.12).contains(&(lead_m / quasi_steady_m)), "{lead_m} m, {quasi_steady_m} m quasi-steadily");
+    }
+
+    #[test]
+    fn a_fast_reversal_leaves_the_way_of_coasting() {
+        let (fast_m, sink_m_s) = turns_after_m(1.0);
+        let (slow_m, _) = turns_after_m(NET_MASS_KG / 60.0);
+        assert!((0.5 * sink_m_s..20.0 * sink_m_s).contains(&fast_m) && fast_m < slow_m, "{fast_m} m, {slow_m} m");
+    }
+
+    #[test]
+    fn a_pump_that_stands_still_ends_no_forecast_in_nonsense() {
+        let (lead_m, sink_m_s) = turns_after_m(0.0);
+        assert!((lead_m / (sink_m_s * LONGEST_S) - 1.0).abs() < 0.01, "{lead_m} m");
+    }
+}

@@ -129,6 +129,30 @@ pub struct Commands {
     pub north_mm: i32,
     /// Dead-reckoned position east of the mission's origin, mm.
     pub east_mm: i32,
+    /// What was learned so far.
+    pub learned: Learned,
+}
+
+/// What the controller has learned of vehicle and water: all zero at first.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, Schema)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Learned {
+    /// Weight beyond what the buoyancy device says, g, positive sinks.
+    pub weight_g: i16,
+    /// Drag beyond the vehicle file's, 0.1 %.
+    pub drag_permille: i16,
+    /// Current towards the north, mm/s.
+    pub current_north_mm_s: i16,
+    /// Current towards the east, mm/s.
+    pub current_east_mm_s: i16,
+    /// Speed through the water beyond what is reckoned, 0.1 %.
+    pub speed_permille: i16,
+    /// True heading less the compass's, 0.01°.
+    pub compass_cdeg: i16,
+    /// Turn rate without rotation of the mass on this side, 0.001 °/s, right positive.
+    pub turn_bias_mdeg_s: i16,
+    /// Correction of the axial position on this side, µm.
+    pub trim_um: i32,
 }
 
 impl Commands {
@@ -146,6 +170,16 @@ impl Commands {
             target_heading_cdeg: 0,
             north_mm: 0,
             east_mm: 0,
+            learned: Learned {
+                weight_g: 0,
+                drag_permille: 0,
+                current_north_mm_s: 0,
+                current_east_mm_s: 0,
+                speed_permille: 0,
+                compass_cdeg: 0,
+                turn_bias_mdeg_s: 0,
+                trim_um: 0,
+            },
         }
     }
 }

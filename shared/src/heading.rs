@@ -1,7 +1,7 @@
 //! Heading by the rotation of the moving mass; how much it turns, and which way, stands in the trim table.
 
 use crate::{
-    device::{RAD_PER_CDEG, TICK_HZ},
+    device::{RAD_PER_CDEG, TICK_HZ, TICK_S},
     math,
     parameters::Parameters,
     pitch::Steady,
@@ -12,11 +12,49 @@ use crate::{
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HeadingLoop {
     deadband_cdeg: i32,
-    time_s: f32,
+    time_s: Option<f32>,
     period_ticks: u32,
     mu_limit_rad: f32,
     mu_deadband_cdeg: i32,
+    bias_limit_rad_s: f32,
 }
+
+/// What one side (dives, climbs) has learned, and the turn under way.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct TurnTrim {
+    bias_rad_s: f32,
+    turning: bool,
+    error_sum_cdeg: i32,
+    samples: i32,
+    /// Mean error of the period before, if the mass has hung still since it began.
+    still_cdeg: Option<i32>,
+}
+
+impl TurnTrim {
+    /// Turn rate with the mass hanging straight down, beyond the table's, rad/s.
+    #[must_use]
+    pub const fn bias_rad_s(&self) -> f32 {
+        self.bias_rad_s
+    }
+
+    /// Forgets the turn under way: another glide began.
+    pub const fn begin(&mut self) {
+        *self = Self { bias_rad_s: self.bias_rad_s, turning: true, error_sum_cdeg: 0, samples: 0, still_cdeg: None };
+    }
+
+    /// Mean error since the last look, 0.01°.
+    fn look(&mut self) -> i32 {
+        let mean_cdeg = self.error_sum_cdeg.checked_div(self.samples).unwrap_or(0);
+        self.error_sum_cdeg = 0;
+        self.samples = 0;
+        mean_cdeg
+    }
+}
+
+/// A turn goes on until its error is this part of the deadband: at its edge it would begin again and again.
+const ENOUGH: i32 = 4;
+/// Part of a difference of turn rates that is believed at once.
+const BIAS_SHARE: f32 = 0.25;
 
 impl HeadingLoop {
     /// Takes its tuning.
@@ -24,37 +62,77 @@ impl HeadingLoop {
     pub fn new(parameters: &Parameters) -> Self {
         Self {
             deadband_cdeg: parameters.heading_deadband_cdeg,
-            time_s: parameters.heading_time_s as f32,
+            time_s: (parameters.heading_time_s > 0).then_some(parameters.heading_time_s as f32),
             period_ticks: parameters.heading_period_s.unsigned_abs().saturating_mul(TICK_HZ),
             mu_limit_rad: parameters.mu_limit_cdeg as f32 * RAD_PER_CDEG,
             mu_deadband_cdeg: parameters.mu_deadband_cdeg,
+            bias_limit_rad_s: parameters.turn_bias_limit_mdeg_s as f32 / 10.0 * RAD_PER_CDEG,
         }
     }
 
     /// Where the mass shall be rotated to, 0.01°, for a heading error (target − heading, short way round).
     ///
-    /// It looks once per period, and leaves the mass where it is unless the change is worth a move.
+    /// It looks once per period, at the mean error. A turn begins beyond the deadband and ends well inside it; while it
+    /// lasts the mass moves only if the change is worth a move, and at its end it goes back to where the vehicle flies
+    /// straight.
     pub fn mu_cdeg(
         &self,
+        trim: &mut TurnTrim,
         table: &TrimTable<'_>,
         steady: &Steady,
         ticks_in_phase: u32,
         error_cdeg: i32,
         mu_cdeg: i32,
     ) -> i32 {
+        trim.error_sum_cdeg = trim.error_sum_cdeg.saturating_add(error_cdeg);
+        trim.samples = trim.samples.saturating_add(1);
         if ticks_in_phase.checked_rem(self.period_ticks) != Some(0) {
             return mu_cdeg;
         }
-        let turn_rate_rad_s = if error_cdeg.saturating_abs() <= self.deadband_cdeg {
-            0.0
-        } else {
-            error_cdeg as f32 * RAD_PER_CDEG / self.time_s
-        };
+        let mean_cdeg = trim.look();
         let near_rad = mu_cdeg as f32 * RAD_PER_CDEG;
+        let band_cdeg = if trim.turning { self.deadband_cdeg / ENOUGH } else { self.deadband_cdeg };
+        trim.turning = mean_cdeg.saturating_abs() > band_cdeg;
+        if !trim.turning
+            && let Some(before_cdeg) = trim.still_cdeg
+        {
+            self.learn(trim, table, steady, before_cdeg.saturating_sub(mean_cdeg), near_rad);
+        }
+        let wanted_rad_s =
+            if trim.turning { mean_cdeg as f32 * RAD_PER_CDEG / self.time_s(table, steady) } else { 0.0 };
+        let turn_rate_rad_s = wanted_rad_s - trim.bias_rad_s;
         let wanted_rad =
             table.mu_for_turn(steady.path_angle_rad, steady.net_mass_kg, turn_rate_rad_s, near_rad, self.mu_limit_rad);
         let wanted_cdeg = math::round_to_i32(wanted_rad / RAD_PER_CDEG);
-        if wanted_cdeg.saturating_sub(mu_cdeg).saturating_abs() > self.mu_deadband_cdeg { wanted_cdeg } else { mu_cdeg }
+        let change_cdeg = wanted_cdeg.saturating_sub(mu_cdeg).saturating_abs();
+        let ends = !trim.turning && trim.still_cdeg.is_none();
+        let moves = change_cdeg > self.mu_deadband_cdeg || ends;
+        trim.still_cdeg = (!moves && !trim.turning || change_cdeg == 0).then_some(mean_cdeg);
+        if moves { wanted_cdeg } else { mu_cdeg }
+    }
+
+    /// Time in which an error shall be gone, s.
+    ///
+    /// Heading integrates a turn rate that lags by the turn length over the speed and by the period, half of it for the mean
+    /// and half until the next look. An integrator of time T behind a lag τ is damped by ½√(T/τ): 1/√2 at T = 2τ.
+    fn time_s(&self, table: &TrimTable<'_>, steady: &Steady) -> f32 {
+        self.time_s.unwrap_or_else(|| {
+            let [dive_m, climb_m] = table.vehicle().glide.turn_length_m;
+            let length_m = if steady.path_angle_rad < 0.0 { dive_m } else { climb_m };
+            let speed_m_s = table.look_up(steady.path_angle_rad, steady.net_mass_kg, 0.0).speed_m_s;
+            let period_s = self.period_ticks as f32 * TICK_S;
+            2.0 * (math::finite_or(length_m / speed_m_s, 0.0) + period_s)
+        })
+    }
+
+    /// Takes the change of heading over a period in which the mass hung still.
+    fn learn(&self, trim: &mut TurnTrim, table: &TrimTable<'_>, steady: &Steady, turned_cdeg: i32, mu_rad: f32) {
+        let period_s = self.period_ticks as f32 * TICK_S;
+        let turned_rad_s = turned_cdeg as f32 * RAD_PER_CDEG / period_s;
+        let expected_rad_s =
+            table.look_up(steady.path_angle_rad, steady.net_mass_kg, mu_rad).turn_rate_rad_s + trim.bias_rad_s;
+        let learned = trim.bias_rad_s + BIAS_SHARE * (turned_rad_s - expected_rad_s);
+        trim.bias_rad_s = math::clamp(learned, -self.bias_limit_rad_s, self.bias_limit_rad_s);
     }
 }
 
@@ -67,7 +145,7 @@ mod tests {
         let file = file();
         let table = TrimTable::parse(&file).unwrap();
         let steady = Steady { path_angle_rad, net_mass_kg: 0.25 };
-        HeadingLoop::new(&Parameters::default()).mu_cdeg(&table, &steady, 0, error_cdeg, 0)
+        HeadingLoop::new(&Parameters::default()).mu_cdeg(&mut TurnTrim::default(), &table, &steady, 0, error_cdeg, 0)
     }
 
     #[test]
@@ -76,6 +154,58 @@ mod tests {
         assert!(mu_for(-0.4, 3_000) < 0);
         assert!(mu_for(0.4, 3_000) > 0);
         assert_eq!(mu_for(0.4, 3_000), -mu_for(0.4, -3_000));
+    }
+
+    /// Flies straight for some periods on the table's turn rate and a bias beyond it; the trim and the last error, 0.01°.
+    fn hold(bias_rad_s: f32, periods: u32) -> (TurnTrim, f32, u32) {
+        let file = file();
+        let table = TrimTable::parse(&file).unwrap();
+        let steady = Steady { path_angle_rad: -0.4, net_mass_kg: 0.25 };
+        let parameters = Parameters::default();
+        let heading_loop = HeadingLoop::new(&parameters);
+        let (mut trim, mut mu_cdeg, mut error_cdeg, mut moves) = (TurnTrim::default(), 0, 0.0, 0);
+        for tick in 0..periods * heading_loop.period_ticks {
+            let before_cdeg = mu_cdeg;
+            mu_cdeg = heading_loop.mu_cdeg(&mut trim, &table, &steady, tick, error_cdeg as i32, mu_cdeg);
+            moves += u32::from(mu_cdeg != before_cdeg);
+            let turn = table.look_up(steady.path_angle_rad, steady.net_mass_kg, mu_cdeg as f32 * RAD_PER_CDEG);
+            error_cdeg -= (turn.turn_rate_rad_s + bias_rad_s) * TICK_S / RAD_PER_CDEG;
+        }
+        (trim, error_cdeg, moves)
+    }
+
+    #[test]
+    fn a_bias_of_the_turn_is_learned_and_the_vehicle_then_flies_straight() {
+        let bias_rad_s = 0.1_f32.to_radians();
+        let (trim, error_cdeg, _) = hold(bias_rad_s, 400);
+        assert!((trim.bias_rad_s() / bias_rad_s - 1.0).abs() < 0.2, "{trim:?}");
+        assert!(error_cdeg.abs() < 2.0 * Parameters::default().heading_deadband_cdeg as f32, "{error_cdeg}");
+        let late_moves = hold(bias_rad_s, 400).2 - hold(bias_rad_s, 200).2;
+        assert!(late_moves <= 10, "{late_moves} moves in 200 periods once it is known");
+    }
+
+    #[test]
+    fn a_learned_bias_stays_within_its_limit() {
+        let limit_rad_s = Parameters::default().turn_bias_limit_mdeg_s as f32 / 10.0 * RAD_PER_CDEG;
+        for bias_deg_s in [2.0_f32, -2.0] {
+            let (trim, ..) = hold(bias_deg_s.to_radians(), 400);
+            assert!(trim.bias_rad_s().abs() <= limit_rad_s, "{trim:?}");
+        }
+    }
+
+    #[test]
+    fn a_turn_ends_well_inside_the_deadband_that_began_it() {
+        let file = file();
+        let table = TrimTable::parse(&file).unwrap();
+        let steady = Steady { path_angle_rad: -0.4, net_mass_kg: 0.25 };
+        let heading_loop = HeadingLoop::new(&Parameters::default());
+        let mut trim = TurnTrim::default();
+        let mut mu_at = |error_cdeg, mu_cdeg| heading_loop.mu_cdeg(&mut trim, &table, &steady, 0, error_cdeg, mu_cdeg);
+        assert_eq!(mu_at(140, 0), 0, "inside the deadband of 1.5° nothing begins");
+        let turning_cdeg = mu_at(3_000, 0);
+        assert_ne!(turning_cdeg, 0);
+        assert_ne!(mu_at(140, turning_cdeg), 0, "the turn goes on");
+        assert_eq!(mu_at(20, turning_cdeg), 0, "and ends");
     }
 
     #[test]

@@ -36,6 +36,7 @@ extern crate std;
 
 pub mod autopilot;
 pub mod device;
+pub mod estimate;
 pub mod heading;
 pub mod math;
 pub mod mission;

@@ -1,10 +1,12 @@
 //! Where the vehicle is and how it moves: depth and its rate, attitude, dead-reckoned position.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Vector2, Vector3};
 
 use crate::{
     device::{Attitude, GpsFix, MM_PER_M, Measurements, RAD_PER_CDEG, TICK_HZ, TICK_S, UM_PER_M},
+    estimate::{buoyancy::Buoyancy, drift::Drift},
     math,
+    parameters::Parameters,
     reduced::{Drive, Model, Motion},
     vehicle::FlightVehicle,
 };
@@ -17,6 +19,8 @@ const DEPTH_RATE_GAIN: f32 = 0.022_291_2;
 const SILENCE_TICKS: u32 = 5 * TICK_HZ;
 /// Metres per 1e-7° of latitude, on a sphere of 6371 km.
 const M_PER_E7: f32 = 0.011_119_493;
+/// Least density that is one, kg/m³; a parameter below it says nothing.
+const LEAST_DENSITY_KG_M3: i32 = 900;
 /// Micrometres per millimetre.
 const UM_PER_MM: i64 = 1_000;
 
@@ -34,13 +38,37 @@ pub struct Navigator {
     /// Tick of the last fresh attitude, once there was one.
     pub attitude_tick: Option<u32>,
     origin: Option<GpsFix>,
+    water_density_kg_m3: Option<f32>,
     water: Motion<f32>,
+    drive: Drive<f32>,
+    buoyancy: Buoyancy,
+    drift: Drift,
     north_um: i64,
     east_um: i64,
+    since_fix: SinceFix,
+}
+
+/// What happened since the last position fix.
+#[derive(Clone, Copy, Debug, Default)]
+struct SinceFix {
+    tick: u32,
+    fix_um: [i64; 2],
+    /// Way through the water as reckoned.
+    water_um: [i64; 2],
+    dived: bool,
 }
 
 impl Default for Navigator {
     fn default() -> Self {
+        Self::new(&Parameters::default())
+    }
+}
+
+impl Navigator {
+    /// Knows nothing yet.
+    #[must_use]
+    pub fn new(parameters: &Parameters) -> Self {
+        let density_kg_m3 = parameters.water_density_kg_m3;
         Self {
             depth_m: 0.0,
             depth_rate_m_s: 0.0,
@@ -54,14 +82,24 @@ impl Default for Navigator {
             depth_tick: None,
             attitude_tick: None,
             origin: None,
+            water_density_kg_m3: (density_kg_m3 >= LEAST_DENSITY_KG_M3).then_some(density_kg_m3 as f32),
             water: Motion::at_rest(),
+            drive: Drive {
+                pitch_rad: 0.0,
+                roll_rad: 0.0,
+                pitch_rate_rad_s: 0.0,
+                r_px_m: 0.0,
+                net_mass_kg: 0.0,
+                density_ratio: 1.0,
+            },
+            buoyancy: Buoyancy::new(parameters),
+            drift: Drift::new(parameters),
             north_um: 0,
             east_um: 0,
+            since_fix: SinceFix::default(),
         }
     }
-}
 
-impl Navigator {
     /// Takes one tick of measurements. `afloat`: at the surface on purpose, where the vehicle does not glide.
     pub fn update(&mut self, vehicle: &FlightVehicle, tick: u32, measurements: &Measurements, afloat: bool) {
         self.take_pressure(vehicle, tick, measurements.pressure_pa);
@@ -71,11 +109,12 @@ impl Navigator {
         }
         if afloat {
             self.water = Motion::at_rest();
+            self.move_on(&Vector2::zeros());
         } else {
-            self.dead_reckon(vehicle, measurements);
+            self.dead_reckon(vehicle, tick, measurements);
         }
         if let Some(fix) = measurements.gps {
-            self.take_fix(fix);
+            self.take_fix(tick, fix);
         }
     }
 
@@ -83,6 +122,31 @@ impl Navigator {
     #[must_use]
     pub const fn has_position(&self) -> bool {
         self.origin.is_some()
+    }
+
+    /// Motion through the water and what drives it.
+    #[must_use]
+    pub const fn motion(&self) -> (&Motion<f32>, &Drive<f32>) {
+        (&self.water, &self.drive)
+    }
+
+    /// What was learned of weight and drag.
+    #[must_use]
+    pub const fn buoyancy(&self) -> &Buoyancy {
+        &self.buoyancy
+    }
+
+    /// What was learned of current, speed and compass.
+    #[must_use]
+    pub const fn drift(&self) -> &Drift {
+        &self.drift
+    }
+
+    /// Heading, with the compass's error as far as it is known, 0.01°.
+    #[must_use]
+    pub fn heading_cdeg(&self) -> i32 {
+        let learned_cdeg = math::round_to_i32(self.drift.compass_rad() / RAD_PER_CDEG);
+        i32::from(self.attitude.heading_cdeg).saturating_add(learned_cdeg)
     }
 
     /// Modelled speed through the water, m/s.
@@ -113,7 +177,8 @@ impl Navigator {
             self.do_without_pressure(tick, predicted);
             return;
         };
-        let measured = pressure_pa as f32 / (vehicle.density_kg_m3 * vehicle.gravity_m_s2);
+        let density_kg_m3 = self.water_density_kg_m3.unwrap_or(vehicle.density_kg_m3);
+        let measured = pressure_pa as f32 / (density_kg_m3 * vehicle.gravity_m_s2);
         if self.depth_tick.is_none() {
             self.depth_m = measured;
         } else {
@@ -135,28 +200,43 @@ impl Navigator {
         self.depth_m = if predicted_m > 0.0 { predicted_m } else { 0.0 };
     }
 
-    fn dead_reckon(&mut self, vehicle: &FlightVehicle, measurements: &Measurements) {
+    fn dead_reckon(&mut self, vehicle: &FlightVehicle, tick: u32, measurements: &Measurements) {
         let attitude = &self.attitude;
         let rad = |cdeg: i16| f32::from(cdeg) * RAD_PER_CDEG;
+        let nominal_kg = vehicle.net_mass_kg(measurements.vbd_ul);
         let drive = Drive {
             pitch_rad: rad(attitude.pitch_cdeg),
             roll_rad: rad(attitude.roll_cdeg),
             pitch_rate_rad_s: rad(attitude.pitch_rate_cdeg_s),
             r_px_m: measurements.r_px_um as f32 / UM_PER_M,
-            net_mass_kg: vehicle.net_mass_kg(measurements.vbd_ul),
-            // Nothing measures it; the vehicle is ballasted for the water that its file names.
+            net_mass_kg: self.buoyancy.net_mass_kg(nominal_kg),
+            // Net mass and drag go with it alike; what is left counts as weight.
             density_ratio: 1.0,
         };
         self.water = Model::new(&vehicle.glide, vehicle.gravity_m_s2, TICK_S).step(&self.water, &drive);
         let to_inertial = rotation(drive.roll_rad, drive.pitch_rad, f32::from(attitude.heading_cdeg) * RAD_PER_CDEG);
         let velocity = to_inertial * Vector3::new(self.water.u_m_s, 0.0, self.water.w_m_s);
-        let um = |metres_per_second: f32| i64::from(math::round_to_i32(metres_per_second * TICK_S * UM_PER_M));
-        self.north_um = self.north_um.saturating_add(um(velocity.x));
-        self.east_um = self.east_um.saturating_add(um(velocity.y));
+        self.drive = drive;
+        if self.depth_tick == Some(tick) && self.attitude_tick == Some(tick) {
+            self.buoyancy.update(nominal_kg, velocity.z, self.depth_rate_m_s);
+        }
+        let water_m_s = velocity.xy();
+        let [north_um, east_um] = &mut self.since_fix.water_um;
+        *north_um = north_um.saturating_add(um_per_tick(water_m_s.x));
+        *east_um = east_um.saturating_add(um_per_tick(water_m_s.y));
+        self.since_fix.dived = true;
+        self.move_on(&water_m_s);
     }
 
-    /// Sets the position to the fix; the first one becomes the origin.
-    fn take_fix(&mut self, fix: GpsFix) {
+    /// One tick over ground, at a velocity through the water.
+    fn move_on(&mut self, water_m_s: &Vector2<f32>) {
+        let velocity = self.drift.over_ground(water_m_s);
+        self.north_um = self.north_um.saturating_add(um_per_tick(velocity.x));
+        self.east_um = self.east_um.saturating_add(um_per_tick(velocity.y));
+    }
+
+    /// Sets the position to the fix; the first one becomes the origin. The first one after a dive teaches the drift.
+    fn take_fix(&mut self, tick: u32, fix: GpsFix) {
         let origin = *self.origin.get_or_insert(fix);
         let north_e7 = fix.lat_e7.wrapping_sub(origin.lat_e7);
         let east_e7 = wrap_e7(i64::from(fix.lon_e7).saturating_sub(i64::from(origin.lon_e7)));
@@ -165,7 +245,21 @@ impl Navigator {
             |e7: f32, m_per_e7: f32| i64::from(math::round_to_i32(e7 * m_per_e7 * MM_PER_M)).saturating_mul(UM_PER_MM);
         self.north_um = um(north_e7 as f32, M_PER_E7);
         self.east_um = um(east_e7 as f32, m_per_e7_east);
+        let fix_um = [self.north_um, self.east_um];
+        let since = self.since_fix;
+        if since.dived {
+            let metres = |um: [i64; 2]| Vector2::from(um.map(|um| um as f32 / UM_PER_M));
+            let made_m = metres(fix_um) - metres(since.fix_um);
+            let time_s = tick.saturating_sub(since.tick) as f32 * TICK_S;
+            self.drift.take_dive(&made_m, &metres(since.water_um), time_s);
+        }
+        self.since_fix = SinceFix { tick, fix_um, ..SinceFix::default() };
     }
+}
+
+/// Way in one tick, µm.
+fn um_per_tick(metres_per_second: f32) -> i64 {
+    i64::from(math::round_to_i32(metres_per_second * TICK_S * UM_PER_M))
 }
 
 /// A difference of longitudes, 1e-7°, the short way round: across the date line too.
@@ -260,12 +354,67 @@ mod tests {
         let table = TrimTable::parse(&file).unwrap();
         let mut navigator = Navigator::default();
         for tick in 0..4_000 {
-            navigator.update(table.vehicle(), tick, &at(0, 9_000), false);
+            let depth_m = 0.77 * 35_f32.to_radians().sin() * TICK_S * tick as f32;
+            navigator.update(table.vehicle(), tick, &at((depth_m * 9_810.0) as i32, 9_000), false);
         }
         let (north_mm, east_mm) = navigator.position_mm();
         // 0.77 m/s at −35° for 1000 s is 630.7 m; getting up to speed costs some metres.
         assert!((615_000..631_500).contains(&east_mm), "{east_mm}");
         assert!(north_mm.abs() < 100, "{north_mm}");
+    }
+
+    /// A vehicle with a fifth more drag than its file says sinks slower by √1.2, and goes that much less far.
+    #[test]
+    fn a_depth_rate_that_the_model_does_not_give_slows_dead_reckoning() {
+        let file = file();
+        let table = TrimTable::parse(&file).unwrap();
+        let mut navigator = Navigator::default();
+        let speed_m_s = 0.77 / 1.2_f32.sqrt();
+        let mut fouled = |from: u32, to: u32| {
+            for tick in from..to {
+                let depth_m = speed_m_s * 35_f32.to_radians().sin() * TICK_S * tick as f32;
+                navigator.update(table.vehicle(), tick, &at((depth_m * 9_810.0) as i32, 9_000), false);
+            }
+            navigator.position_mm().1
+        };
+        let (early_mm, late_mm) = (fouled(0, 2_000), fouled(2_000, 4_000));
+        let expected_mm = speed_m_s * 35_f32.to_radians().cos() * 500.0 * 1e3;
+        assert!(((late_mm - early_mm) as f32 / expected_mm - 1.0).abs() < 0.005, "{} mm", late_mm - early_mm);
+    }
+
+    #[test]
+    fn the_water_of_the_mission_makes_depth_of_pressure() {
+        let file = file();
+        let table = TrimTable::parse(&file).unwrap();
+        for (water_density_kg_m3, depth_m) in [(0, 100.0), (1_025, 97.561)] {
+            let mut navigator = Navigator::new(&Parameters { water_density_kg_m3, ..Parameters::default() });
+            navigator.update(table.vehicle(), 0, &at(981_000, 0), false);
+            assert!((navigator.depth_m - depth_m).abs() < 1e-3, "{} m", navigator.depth_m);
+        }
+    }
+
+    /// An hour's dive to the east in a current: the fix after it teaches the current, and the next dive reckons with it.
+    #[test]
+    fn the_fix_after_a_dive_teaches_the_current() {
+        let file = file();
+        let table = TrimTable::parse(&file).unwrap();
+        let mut navigator = Navigator::default();
+        let fix = |lat_e7| Measurements { gps: Some(GpsFix { lat_e7, lon_e7: 0 }), ..Measurements::silent() };
+        navigator.update(table.vehicle(), 0, &fix(0), true);
+        let level = Measurements { vbd_ul: 0, pressure_pa: None, ..at(0, 9_000) };
+        for tick in 1..4 * 3_600 {
+            navigator.update(table.vehicle(), tick, &level, false);
+        }
+        // 0.1 m/s for an hour is 360 m, 1e-7° of latitude 1.1 cm.
+        navigator.update(table.vehicle(), 4 * 3_600, &fix(32_375), true);
+        let current_m_s = navigator.drift().current_m_s();
+        assert!((current_m_s.x - 0.1).abs() < 0.001, "{current_m_s}");
+        let before_mm = navigator.position_mm().0;
+        for tick in 1..=4_000 {
+            navigator.update(table.vehicle(), 4 * 3_600 + tick, &level, false);
+        }
+        let drifted_mm = navigator.position_mm().0 - before_mm;
+        assert!((99_000..101_000).contains(&drifted_mm), "{drifted_mm} mm in 1000 s");
     }
 
     #[test]

@@ -58,20 +58,34 @@ parameters! {
     pitch_trim_limit_um: 0..=100_000, 40_000;
     /// Heading error that is left alone, 0.01°.
     heading_deadband_cdeg: 10..=3_000, 150;
-    /// Time in which a heading error shall be gone, s.
-    heading_time_s: 5..=600, 30;
+    /// Time in which a heading error shall be gone, s; 0: twice the lag of the turn, from the vehicle's turn length.
+    heading_time_s: 0..=600, 0;
     /// Time between two heading corrections, s.
     heading_period_s: 1..=300, 8;
     /// Largest rotation of the mass for a turn, 0.01°.
     mu_limit_cdeg: 100..=9_000, 4_500;
     /// Change of rotation too small to move for, 0.01°.
-    mu_deadband_cdeg: 10..=3_000, 200;
+    mu_deadband_cdeg: 10..=3_000, 600;
+    /// Largest turn rate without rotation that may be learned, 0.001 °/s.
+    turn_bias_limit_mdeg_s: 0..=2_000, 300;
     /// Pitch held while the buoyancy reverses at depth, 0.01° nose down.
     apogee_pitch_cdeg: 0..=2_000, 500;
     /// Distance from a target at which a buoyancy move counts as finished, µl.
     vbd_deadband_ul: 100..=50_000, 2_000;
     /// Distance from a target at which an axial move counts as finished, µm.
-    r_px_deadband_um: 50..=10_000, 300;
+    r_px_deadband_um: 50..=10_000, 1_000;
+    /// Mean density of the water down to the dive's depth, kg/m³: pressure becomes depth with it. Below 900: the vehicle file's.
+    water_density_kg_m3: 0..=1_300, 0;
+    /// Largest weight error that may be learned from the depth rate, g.
+    buoyancy_limit_g: 0..=2_000, 150;
+    /// Largest change of drag that may be learned from dives and climbs, %.
+    drag_limit_percent: 0..=100, 50;
+    /// Fastest current that may be learned from position fixes, each way, mm/s.
+    current_limit_mm_s: 0..=5_000, 1_500;
+    /// Largest error of speed that may be learned from position fixes, %.
+    speed_limit_percent: 0..=50, 20;
+    /// Largest error of the compass that may be learned from position fixes, 0.01°.
+    compass_limit_cdeg: 0..=3_000, 1_000;
     /// Time without a fresh depth after which the mission ends, s.
     stale_depth_s: 5..=3_600, 60;
     /// Time without a fresh attitude after which the mission ends, s.

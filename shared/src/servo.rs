@@ -6,6 +6,9 @@ use crate::{
     vehicle::Range,
 };
 
+/// Steps in which a drive's sensor divides its range: 12-bit converters.
+const SENSOR_STEPS: i32 = 4_095;
+
 /// How one actuator is driven.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Servo {
@@ -31,14 +34,22 @@ impl Servo {
     pub fn rate(&self, state: &mut Move, target: i32, position: i32) -> i32 {
         let error = self.range.clamp(target).saturating_sub(position);
         let distance = error.saturating_abs();
-        // A move ends well inside the band that starts one, so noise cannot make it stutter.
-        let arrived = distance <= self.deadband / 4;
-        state.moving = if state.moving { !arrived } else { distance > self.deadband };
+        let near = self.arrival();
+        let far = self.deadband.max(near.saturating_mul(2));
+        state.moving = distance > if state.moving { near } else { far };
         if !state.moving {
             return 0;
         }
         let whole_tick = error.saturating_mul(TICK_HZ.cast_signed());
         Range { min: self.rate_down.saturating_neg(), max: self.rate_up }.clamp(whole_tick)
+    }
+
+    /// Distance at which a move has arrived: well inside the band that starts one, so that noise cannot make it stutter, and
+    /// never finer than the sensor's step, or no position would do.
+    const fn arrival(&self) -> i32 {
+        let step = self.range.max.saturating_sub(self.range.min) / SENSOR_STEPS + 1;
+        let quarter = self.deadband / 4;
+        if quarter > step { quarter } else { step }
     }
 
     /// Time that a move over `distance` takes, s.
@@ -71,6 +82,27 @@ mod tests {
             }
             assert!((position - SERVO.range.clamp(target)).abs() <= SERVO.deadband / 4, "{target}: at {position}");
             assert!(moves <= 40, "{target}: {moves} ticks of motion");
+        }
+    }
+
+    /// An axial drive with 0.7 m of travel: its potentiometer's step is 171 µm, and the vehicle file's deadband may be finer.
+    #[test]
+    fn no_deadband_makes_it_hunt_between_two_steps_of_its_sensor() {
+        let range = Range { min: -350_000, max: 350_000 };
+        let step_um = 700_000.0 / 4_095.0;
+        for deadband in [50, 300, 1_000] {
+            let servo = Servo { range, rate_up: 10_000, rate_down: 10_000, deadband };
+            for target in (-300_000..300_000).step_by(7_919) {
+                let (mut position, mut state, mut last_motion) = (0, Move::default(), 0);
+                for tick in 0..400 {
+                    let seen = ((position as f32 / step_um).round() * step_um) as i32;
+                    let rate = servo.rate(&mut state, target, seen);
+                    position += rate / 4;
+                    last_motion = if rate == 0 { last_motion } else { tick };
+                }
+                // 0.3 m at 1 cm/s is 30 s; the last ticks place it.
+                assert!(last_motion < 30 * 4 + 8, "{deadband} µm: still hunts for {target} µm at tick {last_motion}");
+            }
         }
     }
 

@@ -18,7 +18,7 @@
 //!   vehicle integrates by itself and this one is symmetric. No damping: it only added moves.
 
 use shared::{
-    device::{Commands, MM_PER_M, Measurements, TICK_HZ},
+    device::{Commands, Learned, MM_PER_M, Measurements, TICK_HZ},
     math,
     mission::{Event, Executive, Mission, Phase},
     navigator::Navigator,
@@ -147,7 +147,7 @@ impl Baseline {
             sense,
             apogee_pitch_cdeg: parameters.apogee_pitch_cdeg,
             moves: [Move::default(); 3],
-            navigator: Navigator::default(),
+            navigator: Navigator::new(parameters),
             executive: Executive::new(),
             abort: None,
             pitch: PidState::default(),
@@ -309,6 +309,7 @@ impl Pilot for Baseline {
             target_heading_cdeg: self.target_heading_cdeg(),
             north_mm,
             east_mm,
+            learned: Learned::default(),
         })
     }
 }

@@ -5,7 +5,7 @@ use std::{fs, num::NonZero, path::Path, process::Command};
 use shared::{autopilot::Autopilot, table::TrimTable};
 use sim_host::{
     baseline::{Baseline, Turn, TurnSense},
-    campaign::{self, Campaign, Drawn, FACTORS, Flown, Flyer, METRICS},
+    campaign::{self, Campaign, Drawn, FACTORS, Flown, Flyer, METRICS, Water},
     flight::Outcome,
     mission_file::MissionFile,
     ocean::Ocean,
@@ -21,12 +21,13 @@ fn fly(water: &str, seeds: u64, threads: usize, sense: TurnSense, current_m_s: f
     let vehicle = Vehicle::load(&file.vehicle).unwrap();
     let bytes = generate(&vehicle, &Envelope::default()).unwrap();
     let table = TrimTable::parse(&bytes).unwrap();
-    let pilots = [
+    let pilots = vec![
         Flyer::Autopilot(Box::new(Autopilot::new(&table, &file.mission, &file.parameters).unwrap())),
         Flyer::Baseline(Box::new(Baseline::new(table.vehicle(), &file.mission, &file.parameters, sense))),
     ];
-    let waters = [(water.to_string(), Ocean::load(water, &vehicle.water).unwrap())];
-    let campaign = Campaign { vehicle: &vehicle, file: &file, waters: &waters, pilots: &pilots, seeds, current_m_s };
+    let ocean = Ocean::load(water, &vehicle.water).unwrap();
+    let waters = [Water { name: water.into(), ocean, pilots }];
+    let campaign = Campaign { vehicle: &vehicle, file: &file, waters: &waters, seeds, current_m_s };
     campaign::run(&campaign, NonZero::new(threads).unwrap(), |_| {}).unwrap()
 }
 

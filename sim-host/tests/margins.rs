@@ -4,7 +4,7 @@ use std::{num::NonZero, process::Command};
 
 use shared::{
     device::{RAD_PER_CDEG, TICK_HZ},
-    heading::HeadingLoop,
+    heading::{HeadingLoop, TurnTrim},
     math::wrap_cdeg,
     parameters::Parameters,
     pitch::Steady,
@@ -56,7 +56,12 @@ fn the_masss_place_acts_as_the_full_equations_say() {
 /// with the heading law that flies.
 fn last_heading_deg(vehicle: &Vehicle, table: &TrimTable<'_>, parameters: &Parameters, steady: Steady) -> f64 {
     const PERIODS: usize = 50;
-    let law = HeadingLoop::new(&Parameters { heading_deadband_cdeg: 0, mu_deadband_cdeg: 0, ..*parameters });
+    let law = HeadingLoop::new(&Parameters {
+        heading_deadband_cdeg: 0,
+        mu_deadband_cdeg: 0,
+        turn_bias_limit_mdeg_s: 0,
+        ..*parameters
+    });
     let condition = Condition::PathAngle(steady.path_angle_rad.into());
     let glide = glide(vehicle, condition, Scale::NetMass(steady.net_mass_kg.into())).unwrap();
     let plant = Plant::<f64>::new(vehicle);
@@ -74,12 +79,12 @@ fn last_heading_deg(vehicle: &Vehicle, table: &TrimTable<'_>, parameters: &Param
     let heading = |state: &State<f64>| euler_from_quaternion(&state.quaternion).z;
     assert!((heading(&state).to_degrees() - 0.5).abs() < 1e-9);
     let period_ticks = parameters.heading_period_s as usize * TICK_HZ as usize;
-    let mut mu_cdeg = 0;
+    let (mut mu_cdeg, mut trim) = (0, TurnTrim::default());
     let mut squares = Vec::new();
     for tick in 0..PERIODS * period_ticks {
         let before_cdeg = mu_cdeg;
         let error_cdeg = wrap_cdeg(-(heading(&state) / f64::from(RAD_PER_CDEG)).round() as i32);
-        mu_cdeg = law.mu_cdeg(table, &steady, tick as u32, error_cdeg, mu_cdeg);
+        mu_cdeg = law.mu_cdeg(&mut trim, table, &steady, tick as u32, error_cdeg, mu_cdeg);
         // The mass arrives a tick after its order.
         state = State { mu_rad: f64::from(before_cdeg) * f64::from(RAD_PER_CDEG), ..state };
         state = rk4_step(&plant, &state, &locked, TICK_S, &plant.still());

@@ -1,10 +1,12 @@
 //! What ends a phase.
 
-use super::{AFLOAT_DEPTH_M, Autopilot};
+use super::{AFLOAT_DEPTH_M, Autopilot, PASS_SHARE};
 use crate::{
     device::{MM_PER_M, Measurements, TICK_HZ},
+    estimate::reversal::{Forecast, STEP_S},
     math,
     mission::{Event, Phase},
+    reduced::Model,
     streak::Streak,
 };
 
@@ -17,17 +19,19 @@ impl Autopilot<'_> {
         let near_bottom = self.is_near_bottom(measurements);
         let (config, navigator, executive) = (&self.config, &self.state.navigator, &self.state.executive);
         let net_mass_kg = config.table.vehicle().net_mass_kg(measurements.vbd_ul);
-        let ahead_mm = math::round_to_i32((navigator.depth_m + self.reversal_lead_m()) * MM_PER_M);
+        let depth_mm = navigator.depth_mm();
+        let ahead_mm = depth_mm.saturating_add(self.lead_mm());
         let (met, event) = match executive.phase {
             Phase::Surface => (self.is_ready_to_dive(tick), Event::ReadyToDive),
             Phase::Dive if near_bottom => (true, Event::NearBottom),
             Phase::Dive => (ahead_mm >= config.mission.dive_to_mm, Event::DeepEnough),
-            Phase::Apogee => (net_mass_kg <= 0.5 * config.climb.net_mass_kg, Event::Light),
+            Phase::Apogee => (net_mass_kg <= PASS_SHARE * config.climb.net_mass_kg, Event::Light),
             Phase::Climb if executive.yo < config.mission.yos => {
                 (ahead_mm <= config.mission.climb_to_mm, Event::TopReached)
             }
-            Phase::Climb => (ahead_mm <= config.mission.climb_to_mm, Event::LastTopReached),
-            Phase::Crest => (net_mass_kg >= 0.5 * config.dive.net_mass_kg, Event::Heavy),
+            // Nothing reverses at the last top.
+            Phase::Climb => (depth_mm <= config.mission.climb_to_mm, Event::LastTopReached),
+            Phase::Crest => (net_mass_kg >= PASS_SHARE * config.dive.net_mass_kg, Event::Heavy),
             Phase::Surfacing => (
                 navigator.depth_m < AFLOAT_DEPTH_M && math::abs(navigator.depth_rate_m_s) < AFLOAT_RATE_M_S,
                 Event::Afloat,
@@ -37,9 +41,24 @@ impl Autopilot<'_> {
         met.then_some(event)
     }
 
-    /// Depth that will be gained before a reversal that starts now takes effect, m.
-    fn reversal_lead_m(&self) -> f32 {
-        self.state.navigator.depth_rate_m_s * self.config.reversal_s(&self.state.executive.phase)
+    /// Goes on to find out where a reversal that begins now would turn.
+    pub(super) fn forecast(&mut self) {
+        let state = &mut self.state;
+        let phase = state.executive.phase;
+        if phase != Phase::Dive && phase != Phase::Climb {
+            state.forecast = Forecast::default();
+            return;
+        }
+        let plan = self.config.reversal(phase, &state.navigator);
+        let vehicle = self.config.table.vehicle();
+        let model = Model::new(&vehicle.glide, vehicle.gravity_m_s2, STEP_S);
+        let (motion, drive) = state.navigator.motion();
+        state.forecast.advance(&model, &plan, motion, drive);
+    }
+
+    /// Depth between the begin of a reversal and its turning point, mm, down positive.
+    fn lead_mm(&self) -> i32 {
+        math::round_to_i32(self.state.forecast.lead_m() * MM_PER_M)
     }
 
     /// Whether a dive that turns now comes as near to the sea floor as it may; one false echo does not say so.
@@ -49,7 +68,7 @@ impl Autopilot<'_> {
             self.state.bottom = Streak::default();
             return false;
         }
-        let lead_mm = math::round_to_i32(self.reversal_lead_m() * MM_PER_M);
+        let lead_mm = self.lead_mm();
         let near = measurements.altitude_mm.map(|height_mm| height_mm.saturating_sub(lead_mm) <= least_mm);
         self.state.bottom.take(near, self.config.altitude_samples)
     }

@@ -6,8 +6,9 @@
 mod events;
 
 use crate::{
-    device::{Commands, Measurements, RAD_PER_CDEG, TICK_HZ, UM_PER_M},
-    heading::HeadingLoop,
+    device::{Commands, Learned, Measurements, RAD_PER_CDEG, TICK_HZ, UL_PER_M3, UM_PER_M},
+    estimate::reversal::{Forecast, Plan},
+    heading::{HeadingLoop, TurnTrim},
     math,
     mission::{Event, Executive, Mission, Phase, Unflyable},
     navigator::Navigator,
@@ -26,11 +27,6 @@ const AFLOAT_DEPTH_M: f32 = 1.0;
 const HEADING_DEPTH_M: f32 = 2.0;
 /// Time after an inflection before heading is controlled again, s.
 const TURN_SETTLE_S: u32 = 12;
-/// Share of the time to reverse buoyancy during which the vehicle still sinks at full speed: it falls with the root of the
-/// net mass, and the mean of √(1 − t) over the way to neutral is 2/3.
-const REVERSAL_SHARE: f32 = 2.0 / 3.0;
-/// Time for which the vehicle's momentum carries it on, s.
-const COASTING_S: f32 = 4.0;
 const KG_PER_G: f32 = 1e-3;
 
 /// Why an autopilot cannot be built.
@@ -63,6 +59,7 @@ struct Config<'a> {
     dive: Steady,
     climb: Steady,
     apogee_pitch_cdeg: i32,
+    pitch_rate_rad_s: f32,
     altitude_samples: u32,
 }
 
@@ -73,9 +70,12 @@ struct State {
     executive: Executive,
     watch: Watch,
     abort: Option<Abort>,
+    forecast: Forecast,
     bottom: Streak,
     dive_trim: PitchTrim,
     climb_trim: PitchTrim,
+    dive_turn: TurnTrim,
+    climb_turn: TurnTrim,
     mu_target_cdeg: i32,
     r_px_move: Move,
     mu_move: Move,
@@ -102,7 +102,7 @@ impl<'a> Autopilot<'a> {
         if let Some((row, value)) = parameters.first_invalid() {
             return Err(ConfigurationError::Parameter(row, value));
         }
-        Ok(Self { config: Config::new(table, mission, parameters), state: State::default() })
+        Ok(Self { config: Config::new(table, mission, parameters), state: State::new(parameters) })
     }
 
     /// One tick: what to do, given what is measured. Ticks count from 0 at 4 Hz.
@@ -110,6 +110,7 @@ impl<'a> Autopilot<'a> {
         let afloat = self.state.is_afloat();
         self.state.navigator.update(self.config.table.vehicle(), tick, measurements, afloat);
         self.supervise(tick, measurements);
+        self.forecast();
         if let Some(event) = self.event(tick, measurements) {
             self.state.executive.take(tick, event);
         }
@@ -175,7 +176,11 @@ impl<'a> Autopilot<'a> {
         let heading_cdeg = state.heading_cdeg(&config.mission);
         let pitch_cdeg = config.pitch_cdeg(&steady);
         let attitude = state.navigator.attitude;
-        let trim = if steady.path_angle_rad < 0.0 { &mut state.dive_trim } else { &mut state.climb_trim };
+        let (trim, turn) = if steady.path_angle_rad < 0.0 {
+            (&mut state.dive_trim, &mut state.dive_turn)
+        } else {
+            (&mut state.climb_trim, &mut state.climb_turn)
+        };
         let mu_rad = f32::from(measurements.mu_cdeg) * RAD_PER_CDEG;
         let expected = config.table.look_up(steady.path_angle_rad, steady.net_mass_kg, mu_rad);
         // Beyond the table its axial position is only the edge's: an error there teaches nothing about the trim.
@@ -186,10 +191,13 @@ impl<'a> Autopilot<'a> {
         let trim_um = trim.trim_um;
         if state.navigator.depth_m < HEADING_DEPTH_M {
             state.mu_target_cdeg = 0;
+            turn.begin();
         } else if ticks_in_phase >= TURN_SETTLE_S * TICK_HZ || state.executive.phase == Phase::Surfacing {
-            let error_cdeg = math::wrap_cdeg(i32::from(heading_cdeg).saturating_sub(i32::from(attitude.heading_cdeg)));
+            let error_cdeg = math::wrap_cdeg(i32::from(heading_cdeg).saturating_sub(state.navigator.heading_cdeg()));
             state.mu_target_cdeg =
-                config.heading.mu_cdeg(&config.table, &steady, ticks_in_phase, error_cdeg, state.mu_target_cdeg);
+                config.heading.mu_cdeg(turn, &config.table, &steady, ticks_in_phase, error_cdeg, state.mu_target_cdeg);
+        } else {
+            turn.begin();
         }
         let r_px_um = math::round_to_i32(expected.r_px_m * UM_PER_M).saturating_add(trim_um);
         Targets { r_px_um, mu_cdeg: state.mu_target_cdeg, vbd_ul, pitch_cdeg, heading_cdeg }
@@ -211,6 +219,7 @@ impl<'a> Autopilot<'a> {
             target_heading_cdeg: targets.heading_cdeg,
             north_mm,
             east_mm,
+            learned: state.learned(),
         }
     }
 }
@@ -225,7 +234,10 @@ impl<'a> Config<'a> {
         let servo =
             |range: Range, rate_up: i32, rate_down: i32, deadband: i32| Servo { range, rate_up, rate_down, deadband };
         let (r_px_rate, mu_rate) = (actuators.r_px_rate_um_s, actuators.mu_rate_cdeg_s);
+        let dive = steady(mission.dive_path_angle_cdeg, mission.dive_net_mass_g);
+        let climb = steady(mission.climb_path_angle_cdeg, mission.climb_net_mass_g);
         Self {
+            pitch_rate_rad_s: pitch_rate_rad_s(table, &dive, &climb),
             supervisor: Supervisor::new(mission, parameters),
             pitch: PitchLoop::new(parameters),
             heading: HeadingLoop::new(parameters),
@@ -237,8 +249,8 @@ impl<'a> Config<'a> {
                 actuators.bleed_rate_ul_s,
                 parameters.vbd_deadband_ul,
             ),
-            dive: steady(mission.dive_path_angle_cdeg, mission.dive_net_mass_g),
-            climb: steady(mission.climb_path_angle_cdeg, mission.climb_net_mass_g),
+            dive,
+            climb,
             apogee_pitch_cdeg: parameters.apogee_pitch_cdeg,
             altitude_samples: parameters.altitude_samples.unsigned_abs(),
             mission: mission.clone(),
@@ -266,19 +278,65 @@ impl<'a> Config<'a> {
         math::round_to_i32(glide_um as f32 * math::clamp(share, 0.0, 1.0))
     }
 
-    /// Time for which the vehicle goes on vertically, at the speed it has, after a reversal of buoyancy begins, s.
-    fn reversal_s(&self, phase: &Phase) -> f32 {
-        let mission = &self.mission;
-        let from_g = if *phase == Phase::Dive { mission.dive_net_mass_g } else { mission.climb_net_mass_g };
-        let to_neutral_ul = self.vbd_ul(from_g).saturating_neg();
-        REVERSAL_SHARE * self.vbd_servo.duration_s(to_neutral_ul) + COASTING_S
+    /// The reversal that would end a dive or a climb.
+    fn reversal(&self, phase: Phase, navigator: &Navigator) -> Plan {
+        let actuators = self.actuators();
+        let (level_rad, next, pump_ul_s) = if phase == Phase::Dive {
+            (-(self.apogee_pitch_cdeg as f32) * RAD_PER_CDEG, &self.climb, actuators.pump_rate_ul_s)
+        } else {
+            (self.apogee_pitch_cdeg as f32 * RAD_PER_CDEG, &self.dive, actuators.bleed_rate_ul_s)
+        };
+        let net_mass_kg = |nominal_kg: f32| navigator.buoyancy().net_mass_kg(nominal_kg);
+        let kg_s = pump_ul_s as f32 / UL_PER_M3 * self.table.vehicle().density_kg_m3;
+        Plan {
+            level_pitch_rad: level_rad,
+            next_pitch_rad: self.pitch_cdeg(next) as f32 * RAD_PER_CDEG,
+            pitch_rate_rad_s: self.pitch_rate_rad_s,
+            pass_net_mass_kg: net_mass_kg(PASS_SHARE * next.net_mass_kg),
+            next_net_mass_kg: net_mass_kg(next.net_mass_kg),
+            net_mass_rate_kg_s: kg_s / navigator.buoyancy().drag_factor(),
+        }
     }
 }
+
+/// Speed at which the axial drive pitches, from one glide of the table to the other, rad/s.
+fn pitch_rate_rad_s(table: &TrimTable<'_>, dive: &Steady, climb: &Steady) -> f32 {
+    let at = |steady: &Steady| table.look_up(steady.path_angle_rad, steady.net_mass_kg, 0.0);
+    let (down, up) = (at(dive), at(climb));
+    let slope_rad_m = math::abs(math::finite_or((up.pitch_rad - down.pitch_rad) / (up.r_px_m - down.r_px_m), 0.0));
+    table.vehicle().actuators.r_px_rate_um_s as f32 / UM_PER_M * slope_rad_m
+}
+
+/// Part of the next glide's net mass from which on a reversal counts as over.
+const PASS_SHARE: f32 = 0.5;
 
 /// Rotations finer than this are left alone; the heading loop has a wider band of its own, 0.01°.
 const MU_SERVO_DEADBAND_CDEG: i32 = 100;
 
 impl State {
+    fn new(parameters: &Parameters) -> Self {
+        Self { navigator: Navigator::new(parameters), ..Self::default() }
+    }
+
+    fn learned(&self) -> Learned {
+        let (buoyancy, drift) = (self.navigator.buoyancy(), self.navigator.drift());
+        let climbs = matches!(self.executive.phase, Phase::Climb | Phase::Crest | Phase::Surfacing | Phase::Complete);
+        let (trim, turn) =
+            if climbs { (&self.climb_trim, &self.climb_turn) } else { (&self.dive_trim, &self.dive_turn) };
+        let thousandths = |value: f32| saturate(math::round_to_i32(value * 1e3));
+        let current_m_s = drift.current_m_s();
+        Learned {
+            weight_g: thousandths(buoyancy.offset_kg()),
+            drag_permille: thousandths(buoyancy.drag_factor() - 1.0),
+            current_north_mm_s: thousandths(current_m_s.x),
+            current_east_mm_s: thousandths(current_m_s.y),
+            speed_permille: thousandths(drift.speed_error()),
+            compass_cdeg: saturate(math::round_to_i32(drift.compass_rad() / RAD_PER_CDEG)),
+            turn_bias_mdeg_s: thousandths(turn.bias_rad_s() / (100.0 * RAD_PER_CDEG)),
+            trim_um: trim.trim_um,
+        }
+    }
+
     fn is_afloat(&self) -> bool {
         match self.executive.phase {
             Phase::Surface | Phase::Complete => true,

@@ -108,7 +108,8 @@ fn turns_at_mm(altitude_mm: i32, echo: impl Fn(u32, i32) -> Option<i32>) -> Opti
 
 #[test]
 fn the_floor_ends_a_dive_where_asked_and_with_the_way_that_the_reversal_takes() {
-    // 0.2 m/s for two thirds of the 6 s to neutral at 42 ml/s, and 4 s of coasting: 1.6 m; and 0.15 m until the third echo.
+    // 0.2 m/s for two thirds of the 6 s to neutral at 42 ml/s, and some 4 s of coasting while the nose comes up: 1.6 m; and
+    // 0.15 m until the third echo.
     let turn_mm = turns_at_mm(15_000, |_, height_mm| Some(height_mm)).unwrap();
     assert!((16_300..=16_800).contains(&turn_mm), "{turn_mm} mm above the floor");
     assert_eq!(turns_at_mm(0, |_, height_mm| Some(height_mm)), None, "off");
@@ -177,7 +178,7 @@ fn what_cannot_be_flown_is_refused() {
     let unflyable = Unflyable { field: "dive_to_mm", value: 250_000, min: 1_000, max: 200_000 };
     let refused = Autopilot::new(&table, &deep, &Parameters::default()).unwrap_err();
     assert_eq!(refused, ConfigurationError::Mission(unflyable));
-    let mistuned = Parameters { heading_time_s: 1, ..Parameters::default() };
+    let mistuned = Parameters { heading_period_s: 0, ..Parameters::default() };
     let refused = Autopilot::new(&table, &mission(), &mistuned).unwrap_err();
-    assert!(matches!(refused, ConfigurationError::Parameter(row, 1) if row.name == "heading_time_s"));
+    assert!(matches!(refused, ConfigurationError::Parameter(row, 0) if row.name == "heading_period_s"));
 }

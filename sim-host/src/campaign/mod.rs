@@ -41,14 +41,23 @@ pub struct Campaign<'a> {
     pub vehicle: &'a Vehicle,
     /// What is flown.
     pub file: &'a MissionFile,
-    /// Where: names and oceans.
-    pub waters: &'a [(String, Ocean)],
-    /// Who flies; they know the vehicle of the file.
-    pub pilots: &'a [Flyer<'a>],
+    /// Where, and who flies there.
+    pub waters: &'a [Water<'a>],
     /// Seeds 1 to this one.
     pub seeds: u64,
     /// Speed of a steady current from an unknown direction, m/s.
     pub current_m_s: f64,
+}
+
+/// One water.
+#[derive(Clone, Debug)]
+pub struct Water<'a> {
+    /// Its name.
+    pub name: String,
+    /// What it is.
+    pub ocean: Ocean,
+    /// Who flies there; they know the vehicle of the file, and what a chart tells of the water.
+    pub pilots: Vec<Flyer<'a>>,
 }
 
 /// Who flies.
@@ -104,7 +113,7 @@ pub struct Flown {
 /// What keeps the vehicle from flying, in one line.
 pub fn run(campaign: &Campaign<'_>, threads: NonZero<usize>, landed: impl FnMut(&Flown)) -> Result<Vec<Flown>, String> {
     let waters = campaign.waters.iter();
-    let parties = waters.flat_map(|water| campaign.pilots.iter().map(move |pilot| (water, pilot)));
+    let parties = waters.flat_map(|water| water.pilots.iter().map(move |pilot| (water, pilot)));
     let flights: Vec<_> = parties.flat_map(|party| (1..=campaign.seeds).map(move |seed| (party, seed))).collect();
     let fly = |index: usize| {
         let ((water, pilot), seed) = flights[index];
@@ -114,18 +123,13 @@ pub fn run(campaign: &Campaign<'_>, threads: NonZero<usize>, landed: impl FnMut(
 }
 
 /// One flight; its record is measured and dropped.
-fn fly_one(
-    campaign: &Campaign<'_>,
-    (name, ocean): &(String, Ocean),
-    flyer: &Flyer<'_>,
-    seed: u64,
-) -> Result<Flown, String> {
+fn fly_one(campaign: &Campaign<'_>, water: &Water<'_>, flyer: &Flyer<'_>, seed: u64) -> Result<Flown, String> {
     let MissionFile { mission, start, .. } = campaign.file;
     let drawn = Drawn::new(seed, campaign.current_m_s);
     let mut record = Record { start: *start, water: campaign.vehicle.water.clone(), samples: Vec::new() };
     let flight = DrawnFlight {
         nominal: campaign.vehicle,
-        charted: ocean,
+        charted: &water.ocean,
         file: campaign.file,
         drawn: &drawn,
         seed,
@@ -134,7 +138,7 @@ fn fly_one(
     let summary = flight.fly(flyer.fresh().as_mut(), &mut |tick| record.samples.push(Sample::from(tick)))?;
     let seen = Seen { mission, record: &record, summary: &summary };
     Ok(Flown {
-        water: name.clone(),
+        water: water.name.clone(),
         pilot: flyer.name(),
         seed,
         drawn,

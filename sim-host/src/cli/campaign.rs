@@ -4,15 +4,16 @@ use std::{fs, io::Write, num::NonZero, path::PathBuf, thread};
 
 use clap::ValueEnum;
 use serde::Serialize;
-use shared::{autopilot::Autopilot, device::RAD_PER_CDEG, mission::Mission, table::TrimTable};
+use shared::{autopilot::Autopilot, device::RAD_PER_CDEG, mission::Mission, parameters::Parameters, table::TrimTable};
 
 use super::{fly::refusal, progress};
 use crate::{
     baseline::{Baseline, Turn, TurnSense},
-    campaign::{self, Campaign, Flyer, Tally},
+    campaign::{self, Campaign, Flyer, Tally, Water},
     flight::FlyingVehicle,
     mission_file::MissionFile,
     ocean::Ocean,
+    pilot::briefed,
     table::{Envelope, describe, generate},
     vehicle::Vehicle,
     whole_file,
@@ -70,17 +71,15 @@ pub(super) fn run(args: &Args) -> Result<(), String> {
     let file = MissionFile::load(&args.mission).map_err(|error| error.to_string())?;
     let vehicle = super::load_vehicle(args.vehicle.as_ref().unwrap_or(&file.vehicle))?;
     FlyingVehicle::new(&vehicle)?;
-    let waters = args.environments.iter().map(|name| water(name, &vehicle, &file.mission));
-    let waters = waters.collect::<Result<Vec<_>, _>>()?;
     let table_bytes = generate(&vehicle, &Envelope::default())?;
     let table = TrimTable::parse(&table_bytes).map_err(|error| format!("trim table: {}", describe(&error)))?;
-    let pilots = pilots(args.pilot, &table, &file)?;
+    let waters = args.environments.iter().map(|name| water(name, args.pilot, &vehicle, &table, &file));
+    let waters = waters.collect::<Result<Vec<_>, _>>()?;
     fs::create_dir_all(&args.out).map_err(|error| format!("{}: {error}", args.out.display()))?;
 
     let seeds = args.seeds;
-    let campaign =
-        Campaign { vehicle: &vehicle, file: &file, waters: &waters, pilots: &pilots, seeds, current_m_s: args.current };
-    let bar = progress::flights(seeds * (waters.len() * pilots.len()) as u64);
+    let campaign = Campaign { vehicle: &vehicle, file: &file, waters: &waters, seeds, current_m_s: args.current };
+    let bar = progress::flights(seeds * waters.iter().map(|water| water.pilots.len() as u64).sum::<u64>());
     let threads = thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN);
     let flown = campaign::run(&campaign, threads, |_| bar.inc(1))?;
     bar.finish_and_clear();
@@ -111,24 +110,39 @@ fn title(args: &Args, vehicle: &Vehicle) -> String {
     format!("{}, {}, seeds 1 to {}{current}", args.mission, vehicle.name, args.seeds)
 }
 
-/// A water by its name; one that is too shallow for the mission would say nothing about who flies.
-fn water(name: &str, vehicle: &Vehicle, mission: &Mission) -> Result<(String, Ocean), String> {
+/// A water by its name, and who flies there; one that is too shallow for the mission would say nothing about them.
+fn water<'a>(
+    name: &str,
+    who: Pilots,
+    vehicle: &Vehicle,
+    table: &TrimTable<'a>,
+    file: &MissionFile,
+) -> Result<Water<'a>, String> {
+    let mission = &file.mission;
     let ocean = Ocean::load(name, &vehicle.water).map_err(|error| error.to_string())?;
     let dive_to_m = f64::from(mission.dive_to_mm) / 1e3;
     match ocean.floor_depth_m(0.0, 0.0) {
         Some(floor_m) if floor_m <= dive_to_m => {
             Err(format!("{name}: the sea floor lies at {floor_m} m, and the mission dives to {dive_to_m} m"))
         }
-        Some(_) | None => Ok((name.into(), ocean)),
+        Some(_) | None => {
+            let parameters = briefed(&file.parameters, mission, &ocean, &vehicle.water);
+            Ok(Water { name: name.into(), ocean, pilots: pilots(who, table, file, &parameters)? })
+        }
     }
 }
 
-fn pilots<'a>(who: Pilots, table: &TrimTable<'a>, file: &MissionFile) -> Result<Vec<Flyer<'a>>, String> {
+fn pilots<'a>(
+    who: Pilots,
+    table: &TrimTable<'a>,
+    file: &MissionFile,
+    parameters: &Parameters,
+) -> Result<Vec<Flyer<'a>>, String> {
     // Also checks the mission, which the classical controller takes as it is.
     let autopilot =
-        Autopilot::new(table, &file.mission, &file.parameters).map_err(|error| refusal(file, &error).to_string())?;
+        Autopilot::new(table, &file.mission, parameters).map_err(|error| refusal(file, &error).to_string())?;
     let sense = turn_sense(table, &file.mission);
-    let baseline = Baseline::new(table.vehicle(), &file.mission, &file.parameters, sense);
+    let baseline = Baseline::new(table.vehicle(), &file.mission, parameters, sense);
     let both = [
         (Pilots::Autopilot, Flyer::Autopilot(Box::new(autopilot))),
         (Pilots::Baseline, Flyer::Baseline(Box::new(baseline))),

@@ -18,6 +18,7 @@ use crate::{
     flight::{FlyingVehicle, Summary, fly},
     mission_file::MissionFile,
     ocean::Ocean,
+    pilot::briefed,
     record::{Record, Sample},
     report::{self, Flight},
     table::{Envelope, describe, generate},
@@ -75,8 +76,9 @@ pub(super) fn run(args: &Args) -> Result<(), String> {
     };
     let table = TrimTable::parse(&table_bytes).and_then(|table| table.for_vehicle(vehicle.hash()));
     let table = table.map_err(|error| format!("{}: {}", table_name(args), describe(&error)))?;
+    let parameters = briefed(&file.parameters, &file.mission, &ocean, &vehicle.water);
     let mut autopilot =
-        Autopilot::new(&table, &file.mission, &file.parameters).map_err(|error| refusal(&file, &error).to_string())?;
+        Autopilot::new(&table, &file.mission, &parameters).map_err(|error| refusal(&file, &error).to_string())?;
     fs::create_dir_all(&args.out).map_err(|error| format!("{}: {error}", args.out.display()))?;
 
     let progress = Progress::new(&file.mission);

@@ -4,7 +4,7 @@
 
 use shared::{
     device::{RAD_PER_CDEG, TICK_HZ, UM_PER_M},
-    heading::HeadingLoop,
+    heading::{HeadingLoop, TurnTrim},
     parameters::Parameters,
     pitch::{PitchLoop, PitchTrim, Steady},
     servo::{Move, Servo},
@@ -53,7 +53,9 @@ impl<'a> Laws<'a> {
     /// Rotation of the mass per heading error.
     pub(super) fn mu_per_heading(&self) -> f64 {
         let law = HeadingLoop::new(&self.parameters);
-        let mu_cdeg = |error_cdeg: i32, near_cdeg: i32| law.mu_cdeg(self.table, &self.steady, 0, error_cdeg, near_cdeg);
+        let mu_cdeg = |error_cdeg: i32, near_cdeg: i32| {
+            law.mu_cdeg(&mut TurnTrim::default(), self.table, &self.steady, 0, error_cdeg, near_cdeg)
+        };
         let straight_cdeg = mu_cdeg(0, 0);
         let [more, less] = [ERROR_CDEG, -ERROR_CDEG].map(|error_cdeg| mu_cdeg(error_cdeg, straight_cdeg));
         f64::from(more - less) / f64::from(2 * ERROR_CDEG)

@@ -172,7 +172,7 @@ fn heading(linear: &Linearised, glide: &Glide, laws: &Laws<'_>) -> SampledLoop {
     let led = laws.r_px_m_per_mu(glide.mu_rad);
     let by_mu = linear.inputs.column(1) + linear.inputs.column(0) * led;
     let b = DVector::from_fn(STATES + 1, |i, _| if i < STATES { by_mu[i] } else { 0.0 });
-    sampled((&a, &b), STATES, Law::Proportional, laws.mu_per_heading(), laws.parameters.heading_period_s)
+    sampled((&a, &b), STATES, Law::ProportionalMean, laws.mu_per_heading(), laws.parameters.heading_period_s)
 }
 
 /// The loop over one state of a plant ẋ = A x + b u; the period in s.

@@ -24,6 +24,8 @@ const ITERATIONS: usize = 10_000;
 pub enum Law {
     /// −gain · y, as it is when the period begins.
     Proportional,
+    /// −gain · the mean of y over the last period's ticks.
+    ProportionalMean,
     /// The target before, less gain · the mean of y over the last period's ticks.
     IntegratedMean,
 }
@@ -141,6 +143,7 @@ impl SampledLoop {
         }
         match self.law {
             Law::Proportional => decide.view_mut((newest, 0), (1, plant)).copy_from(&(&self.seen * -gain)),
+            Law::ProportionalMean => decide[(newest, sum)] = -gain / self.period_ticks as f64,
             Law::IntegratedMean => {
                 decide[(newest, newest)] = 1.0;
                 decide[(newest, sum)] = -gain / self.period_ticks as f64;

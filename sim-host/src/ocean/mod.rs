@@ -132,6 +132,12 @@ impl Ocean {
         self.ballast_density_kg_m3.unwrap_or_else(|| self.column.middle_density_kg_m3(dive_to_m))
     }
 
+    /// Density that makes depth of the pressure at some depth, kg/m³: the mean down to it.
+    #[must_use]
+    pub fn mean_density_kg_m3(&self, depth_m: f64, gravity_m_s2: f64) -> f64 {
+        self.at_rest(depth_m).around.pressure_pa / (gravity_m_s2 * depth_m)
+    }
+
     /// The ocean from some moment on.
     #[must_use]
     pub fn from_time(&self, time_s: f64) -> OceanFrom<'_> {

@@ -103,6 +103,24 @@ pub const COLUMNS: &[Column] = &[
     integer("target_heading_cdeg", "heading aimed at", |s| Some(s.commands.target_heading_cdeg.into())),
     integer("north_mm", "dead-reckoned north of the start", |s| Some(s.commands.north_mm.into())),
     integer("east_mm", "dead-reckoned east of the start", |s| Some(s.commands.east_mm.into())),
+    integer("weight_g", "learned weight beyond the buoyancy device's", |s| Some(s.commands.learned.weight_g.into())),
+    integer("drag_permille", "learned drag beyond the vehicle file's", |s| {
+        Some(s.commands.learned.drag_permille.into())
+    }),
+    integer("learned_current_north_mm_s", "learned current, north", |s| {
+        Some(s.commands.learned.current_north_mm_s.into())
+    }),
+    integer("learned_current_east_mm_s", "learned current, east", |s| {
+        Some(s.commands.learned.current_east_mm_s.into())
+    }),
+    integer("speed_permille", "learned speed beyond the reckoned one", |s| {
+        Some(s.commands.learned.speed_permille.into())
+    }),
+    integer("compass_cdeg", "learned error of the compass", |s| Some(s.commands.learned.compass_cdeg.into())),
+    integer("turn_bias_mdeg_s", "learned turn rate with the mass hanging down", |s| {
+        Some(s.commands.learned.turn_bias_mdeg_s.into())
+    }),
+    integer("trim_um", "learned correction of the axial position", |s| Some(s.commands.learned.trim_um.into())),
     // What was
     real("true_north_m", "north of the start", |_, s| Some(s.truth.position_m.x)),
     real("true_east_m", "east of the start", |_, s| Some(s.truth.position_m.y)),

@@ -47,7 +47,7 @@ impl Servo {
     /// Distance at which a move has arrived: well inside the band that starts one, so that noise cannot make it stutter, and
     /// never finer than the sensor's step, or no position would do.
     const fn arrival(&self) -> i32 {
-        let step = self.range.max.saturating_sub(self.range.min) / SENSOR_STEPS + 1;
+        let step = (self.range.max.saturating_sub(self.range.min) / SENSOR_STEPS).saturating_add(1);
         let quarter = self.deadband / 4;
         if quarter > step { quarter } else { step }
     }

@@ -73,7 +73,8 @@ impl<'a> Laws<'a> {
 /// Rate that the servo orders per error of the position while no limit is met, 1/s.
 pub(super) fn servo_per_s() -> f64 {
     const ERROR: i32 = 1_000;
-    let range = Range { min: i32::MIN / 8, max: i32::MAX / 8 };
+    // Fine enough a sensor that the error is not taken for its step.
+    let range = Range { min: -100 * ERROR, max: 100 * ERROR };
     let servo = Servo { range, rate_up: i32::MAX, rate_down: i32::MAX, deadband: 0 };
     f64::from(servo.rate(&mut Move::default(), ERROR, 0)) / f64::from(ERROR)
 }

@@ -26,6 +26,10 @@
 //! | TEOS-10's published check values | `ocean::teos10` | 1e-9 kg/m³; 2e-5 °C of Θ: a fit's |
 //! | cross flow: attached law below the stall, drag of the plan view across, never gives energy | `tests/crossflow.rs` | equal bits; 1e-12; sign |
 //! | the paper's trim, Tables 1 and 2, eqs (14)–(16) = 3×3 system = exact helix | `tests/trim.rs`, `tests/stability.rs` | printed digits; 1e-9 |
+//! | every printed number and stated trend beside ours, every figure drawn | `tests/paper.rs` | printed digits; 0.005 and 0.5° for eigenvectors |
+//! | straight glides, turns and modes of 50 random lopsided vehicles, or one clear refusal | `tests/asymmetric.rs` | 1e-8 N |
+//! | trim tables against exact trim, middles of all cells and random points | `tests/table.rs` | 0.5 % of speed, 0.2° of pitch, 2 % of turn rate |
+//! | the reduced model, f32 and fixed point, against the plant | `tests/reduced.rs` | 1e-4 m/s and 0.01 m through an inflection |
 //! | electrical energy of the pump over p ΔV | `tests/devices.rs` | fielded efficiencies; 1e-9 for p ΔV itself |
 //! | every abort: its fault is noticed in time, and the vehicle comes back | `tests/aborts.rs` | when the fault can be seen |
 //! | a dive turns above a sloping floor by the altimeter | `tests/ocean.rs` | 3 m of the height asked for |

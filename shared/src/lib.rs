@@ -35,7 +35,9 @@
 extern crate std;
 
 pub mod autopilot;
+pub mod depth_hold;
 pub mod device;
+pub mod guidance;
 pub mod heading;
 pub mod math;
 pub mod mission;

@@ -2,7 +2,10 @@
 
 #![allow(clippy::unwrap_used, reason = "in a test a panic is the report")]
 
-use shared::{mission::Mission, parameters::Parameters};
+use shared::{
+    mission::{Course, Mission},
+    parameters::Parameters,
+};
 use sim_host::mission_file::{MissionFile, Start};
 
 const DEFAULT: &str = include_str!("../missions/default.toml");
@@ -20,13 +23,16 @@ fn the_default_mission_is_two_yos_to_200_m_with_a_turn() {
     assert_eq!(file.parameters, Parameters::default());
     let expected = Mission {
         yos: 2,
+        surfacings: 1,
         dive_to_mm: 200_000,
         climb_to_mm: 5_000,
         dive_path_angle_cdeg: -2_600,
         climb_path_angle_cdeg: 2_600,
         dive_net_mass_g: 250,
         climb_net_mass_g: -250,
-        headings_cdeg: [3_000, 6_000, 6_000, 6_000].into_iter().collect(),
+        course: Course::Headings([3_000, 6_000, 6_000, 6_000].into_iter().collect()),
+        drift_time_s: 0,
+        flare_depth_mm: 0,
         surface_time_s: 60,
         altitude_mm: 0,
         abort_depth_mm: 215_000,
@@ -38,8 +44,8 @@ fn the_default_mission_is_two_yos_to_200_m_with_a_turn() {
 #[test]
 fn headings_wrap_into_one_turn() {
     let text = DEFAULT.replace("[30, 60, 60, 60]", "[-10, 360, 359.999, 90.5]");
-    let headings = MissionFile::from_toml(&text, "m.toml").unwrap().mission.headings_cdeg;
-    assert_eq!(headings, [35_000, 0, 0, 9_050]);
+    let course = MissionFile::from_toml(&text, "m.toml").unwrap().mission.course;
+    assert_eq!(course, Course::Headings([35_000, 0, 0, 9_050].into_iter().collect()));
 }
 
 #[test]

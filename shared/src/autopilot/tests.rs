@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::{
-    device::{Attitude, GpsFix},
+    device::{Attitude, GpsFix, TICK_HZ},
     table::tests::file,
 };
 use heapless::Vec;
@@ -10,13 +10,16 @@ use heapless::Vec;
 fn mission() -> Mission {
     Mission {
         yos: 1,
+        surfacings: 1,
         dive_to_mm: 100_000,
         climb_to_mm: 5_000,
         dive_path_angle_cdeg: -2_600,
         climb_path_angle_cdeg: 2_600,
         dive_net_mass_g: 250,
         climb_net_mass_g: -250,
-        headings_cdeg: Vec::from_slice(&[9_000]).unwrap(),
+        course: Course::Headings(Vec::from_slice(&[9_000]).unwrap()),
+        drift_time_s: 0,
+        flare_depth_mm: 0,
         surface_time_s: 1,
         altitude_mm: 0,
         abort_depth_mm: 110_000,

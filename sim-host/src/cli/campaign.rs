@@ -69,13 +69,14 @@ pub(super) fn run(args: &Args) -> Result<(), String> {
     if !(0.0..=CURRENT_M_S).contains(&args.current) {
         return Err(format!("--current {}: a speed from 0 to {CURRENT_M_S} m/s", args.current));
     }
-    let file = MissionFile::load(&args.mission).map_err(|error| error.to_string())?;
-    let vehicle = super::load_vehicle(args.vehicle.as_ref().unwrap_or(&file.vehicle))?;
+    let asked = MissionFile::load(&args.mission).map_err(|error| error.to_string())?;
+    let vehicle = super::load_vehicle(args.vehicle.as_ref().unwrap_or(&asked.vehicle))?;
     FlyingVehicle::new(&vehicle)?;
-    let waters = args.environments.iter().map(|name| water(name, &vehicle, &file.mission));
+    let waters = args.environments.iter().map(|name| water(name, &vehicle, &asked.mission));
     let waters = waters.collect::<Result<Vec<_>, _>>()?;
     let table_bytes = generate(&vehicle, &Envelope::default())?;
     let table = TrimTable::parse(&table_bytes).map_err(|error| format!("trim table: {}", describe(&error)))?;
+    let file = asked.resolve(&table).map_err(|error| error.to_string())?;
     let pilots = pilots(args.pilot, &table, &file)?;
     fs::create_dir_all(&args.out).map_err(|error| format!("{}: {error}", args.out.display()))?;
 
@@ -123,6 +124,9 @@ fn pilots<'a>(who: Pilots, table: &TrimTable<'a>, file: &MissionFile) -> Result<
         Autopilot::new(table, &file.mission, &file.parameters).map_err(|error| refusal(file, &error).to_string())?;
     let sense = turn_sense(table, &file.mission);
     let baseline = Baseline::new(table.vehicle(), &file.mission, &file.parameters, sense);
+    if who != Pilots::Autopilot && !Baseline::knows(&file.mission) {
+        return Err("the baseline flies headings and no drift; --pilot autopilot flies this mission alone".into());
+    }
     let both = [
         (Pilots::Autopilot, Flyer::Autopilot(Box::new(autopilot))),
         (Pilots::Baseline, Flyer::Baseline(Box::new(baseline))),

@@ -36,7 +36,8 @@ fn turn_length_m(vehicle: &Vehicle, glide: &Glide) -> Result<f64, String> {
     let a = Matrix4::from(rows).transpose();
     let plant = Plant::<f64>::new(vehicle);
     let rate = |mu_rad: f64| {
-        let rates = plant.derivative_driven(&State { mu_rad: glide.mu_rad + mu_rad, ..glide.state() }, 0.0, &plant.still());
+        let rates =
+            plant.derivative_driven(&State { mu_rad: glide.mu_rad + mu_rad, ..glide.state() }, 0.0, &plant.still());
         Vector4::new(rates.velocity_m_s.y, rates.rate_rad_s.x, rates.rate_rad_s.z, 0.0)
     };
     let b = (rate(SMALL_MU_RAD) - rate(-SMALL_MU_RAD)) / (2.0 * SMALL_MU_RAD);

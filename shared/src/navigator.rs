@@ -15,6 +15,8 @@ const DEPTH_GAIN: f32 = 0.2;
 const DEPTH_RATE_GAIN: f32 = 0.022_291_2;
 /// Silence of the pressure sensor that the last rate still bridges: 5 s.
 const SILENCE_TICKS: u32 = 5 * TICK_HZ;
+/// Time without a fix from which on the next one tells something of the current: 5 min.
+const LEAST_DIVE_TICKS: u32 = 300 * TICK_HZ;
 /// Metres per 1e-7° of latitude, on a sphere of 6371 km.
 const M_PER_E7: f32 = 0.011_119_493;
 /// Micrometres per millimetre.
@@ -33,7 +35,10 @@ pub struct Navigator {
     pub depth_tick: Option<u32>,
     /// Tick of the last fresh attitude, once there was one.
     pub attitude_tick: Option<u32>,
+    /// Depth-averaged motion of the water on the last dive, to north and east, m/s; zero before the first.
+    pub current_m_s: (f32, f32),
     origin: Option<GpsFix>,
+    fix_tick: u32,
     water: Motion<f32>,
     north_um: i64,
     east_um: i64,
@@ -53,7 +58,9 @@ impl Default for Navigator {
             },
             depth_tick: None,
             attitude_tick: None,
+            current_m_s: (0.0, 0.0),
             origin: None,
+            fix_tick: 0,
             water: Motion::at_rest(),
             north_um: 0,
             east_um: 0,
@@ -75,7 +82,7 @@ impl Navigator {
             self.dead_reckon(vehicle, measurements);
         }
         if let Some(fix) = measurements.gps {
-            self.take_fix(fix);
+            self.take_fix(tick, fix);
         }
     }
 
@@ -147,8 +154,8 @@ impl Navigator {
         let to_inertial = rotation(drive.roll_rad, drive.pitch_rad, f32::from(attitude.heading_cdeg) * RAD_PER_CDEG);
         let velocity = to_inertial * Vector3::new(self.water.u_m_s, 0.0, self.water.w_m_s);
         let um = |metres_per_second: f32| i64::from(math::round_to_i32(metres_per_second * TICK_S * UM_PER_M));
-        self.north_um = self.north_um.saturating_add(um(velocity.x));
-        self.east_um = self.east_um.saturating_add(um(velocity.y));
+        self.north_um = self.north_um.saturating_add(um(velocity.x + self.current_m_s.0));
+        self.east_um = self.east_um.saturating_add(um(velocity.y + self.current_m_s.1));
     }
 
     /// How far north and east of the vehicle a place lies, mm; nothing before the first fix.
@@ -159,10 +166,18 @@ impl Navigator {
         Some((north_mm, saturated_mm(east_um.saturating_sub(self.east_um))))
     }
 
-    /// Sets the position to the fix; the first one becomes the origin.
-    fn take_fix(&mut self, fix: GpsFix) {
+    /// Sets the position to the fix; the first one becomes the origin. The first one after a dive tells the current.
+    fn take_fix(&mut self, tick: u32, fix: GpsFix) {
+        let first = self.origin.is_none();
         let origin = *self.origin.get_or_insert(fix);
-        (self.north_um, self.east_um) = from_origin_um(&origin, &fix);
+        let (north_um, east_um) = from_origin_um(&origin, &fix);
+        let away_ticks = tick.saturating_sub(self.fix_tick);
+        if !first && away_ticks >= LEAST_DIVE_TICKS {
+            let missed_m_s = |um: i64| um as f32 / UM_PER_M / (away_ticks as f32 * TICK_S);
+            self.current_m_s.0 += missed_m_s(north_um.saturating_sub(self.north_um));
+            self.current_m_s.1 += missed_m_s(east_um.saturating_sub(self.east_um));
+        }
+        (self.north_um, self.east_um, self.fix_tick) = (north_um, east_um, tick);
     }
 }
 
@@ -279,6 +294,24 @@ mod tests {
         // 0.77 m/s at −35° for 1000 s is 630.7 m; getting up to speed costs some metres.
         assert!((615_000..631_500).contains(&east_mm), "{east_mm}");
         assert!(north_mm.abs() < 100, "{north_mm}");
+    }
+
+    /// Adrift for 1000 s in 0.2 m/s to the east, as far as the fixes say; the next dive is reckoned with it.
+    #[test]
+    fn a_fix_after_a_dive_tells_the_current() {
+        let file = file();
+        let table = TrimTable::parse(&file).unwrap();
+        let mut navigator = Navigator::default();
+        let fix = |east_m: f32| Measurements {
+            gps: Some(GpsFix { lat_e7: 0, lon_e7: (east_m / M_PER_E7) as i32 }),
+            ..Measurements::silent()
+        };
+        navigator.update(table.vehicle(), 0, &fix(0.0), true);
+        navigator.update(table.vehicle(), 4_000, &fix(200.0), true);
+        let (north_m_s, east_m_s) = navigator.current_m_s;
+        assert!((east_m_s - 0.2).abs() < 1e-4 && north_m_s == 0.0, "{north_m_s}, {east_m_s}");
+        navigator.update(table.vehicle(), 4_100, &fix(200.0), true);
+        assert_eq!(navigator.current_m_s, (north_m_s, east_m_s), "too soon to tell anything");
     }
 
     #[test]

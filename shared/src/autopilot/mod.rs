@@ -31,8 +31,6 @@ const REVERSAL_SHARE: f32 = 2.0 / 3.0;
 /// Time for which the vehicle's momentum carries it on, s.
 const COASTING_S: f32 = 4.0;
 const KG_PER_G: f32 = 1e-3;
-/// What is known of the water's motion to north and east, m/s.
-const CURRENT_M_S: (f32, f32) = (0.0, 0.0);
 
 /// Why an autopilot cannot be built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -164,7 +162,7 @@ impl<'a> Autopilot<'a> {
             tick,
             executive: &state.executive,
             navigator: &state.navigator,
-            current_m_s: CURRENT_M_S,
+            current_m_s: state.navigator.current_m_s,
             speed_m_s: side.horizontal_speed_m_s,
         };
         state.guide.update(&config.mission, &sight);

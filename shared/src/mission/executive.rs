@@ -2,15 +2,13 @@
 //!
 //! ```text
 //!   another surfacing
-//!    ┌─────────────────────────────────────────────────────────────┐
-//!    │       ┌──────────────── Crest ◄───────────────┐ another yo  │
-//!    ▼       ▼                                       │             │
-//! Surface ─► Dive ───────────► Apogee ─► Climb ──────┤             │
-//!            │  │                ▲         │         │ last yo     │
-//!            │  └─► Drift ───────┘         │         ▼             │
-//!            │        │           │        │     Surfacing ────────┴─► Complete
-//!            ▼        ▼           ▼        ▼         │    last surfacing
-//!            └────────┴───────────┴────────┴─────────┴─► Recovery ─► (stays; afloat)
+//!    ┌───────────────────────────────────────────────────────┐
+//!    │       ┌───────────── Crest ◄────────────┐ another yo  │
+//!    ▼       ▼                                 │             │
+//! Surface ─► Dive ─┬──────────► Apogee ─► Climb ─► Surfacing ─┴─► Complete
+//!                  └─► Drift ────┘
+//!
+//! any of these but Complete ─► Recovery, for good
 //! ```
 
 use postcard_schema::Schema;

@@ -152,9 +152,9 @@ fn a_glide_out_of_reach_is_refused_with_what_is_within() {
     let (_, bytes) = slocum();
     let table = TrimTable::parse(&bytes).unwrap();
     for (passage, replacement, begin) in [
-        ("dive_pitch_deg = -22", "dive_pitch_deg = -60", "m.toml:16:18: `mission.dive_pitch_deg` is -60, but"),
-        ("climb_pitch_deg = 22", "climb_pitch_deg = 2", "m.toml:17:19: `mission.climb_pitch_deg` is 2, but"),
-        ("_s = 0.25 ", "_s = 2 ", "m.toml:18:27: `mission.dive_vertical_speed_m_s` is 2, but"),
+        ("dive_pitch_deg = -22", "dive_pitch_deg = -60", "m.toml:15:18: `mission.dive_pitch_deg` is -60, but"),
+        ("climb_pitch_deg = 22", "climb_pitch_deg = 2", "m.toml:16:19: `mission.climb_pitch_deg` is 2, but"),
+        ("_s = 0.25 ", "_s = 2 ", "m.toml:17:27: `mission.dive_vertical_speed_m_s` is 2, but"),
     ] {
         let file = MissionFile::from_toml(&WAYPOINTS.replace(passage, replacement), "m.toml").unwrap();
         let line = file.resolve(&table).unwrap_err().to_string();
@@ -193,19 +193,19 @@ fn a_course_is_one_of_three_and_its_mistakes_have_a_place() {
     );
     assert_eq!(
         row(WAYPOINTS, "surface_time_s = 300", "surface_time_s = 300\nheadings_deg = [7]"),
-        "m.toml:21:16: `mission.headings_deg` is [7], but must be left out beside `waypoints`"
+        "m.toml:20:16: `mission.headings_deg` is [7], but must be left out beside `waypoints`"
     );
     assert_eq!(
         row(WAYPOINTS, "dive_pitch_deg = -22", "dive_pitch_deg = -22\ndive_path_angle_deg = -26"),
-        "m.toml:16:18: `mission.dive_pitch_deg` is -22, but must be left out beside `dive_path_angle_deg`"
+        "m.toml:15:18: `mission.dive_pitch_deg` is -22, but must be left out beside `dive_path_angle_deg`"
     );
     assert_eq!(
         row(WAYPOINTS, "capture_radius_m = 200", "capture_radius_m = 5"),
-        "m.toml:26:20: `mission.waypoints.capture_radius_m` is 5, but must be a number from 10 to 100000"
+        "m.toml:25:20: `mission.waypoints.capture_radius_m` is 5, but must be a number from 10 to 100000"
     );
     assert_eq!(
         row(WAYPOINTS, "places_m = [[2000, 0], [2000, 1500], [0, 0]]", "places_deg = [[91, 0]]"),
-        "m.toml:25:14: `mission.waypoints.places_deg` is [[91, 0]], but must be 1 to 16 rows of [north, east] on the Earth"
+        "m.toml:24:14: `mission.waypoints.places_deg` is [[91, 0]], but must be 1 to 16 rows of [north, east] on the Earth"
     );
 }
 

@@ -205,7 +205,7 @@ fn phases_of(mission: &Mission, depths_m: &[(u32, i32, i32)]) -> (std::vec::Vec<
 #[test]
 fn a_drift_is_neither_stuck_nor_adrift_for_ever_and_each_surfacing_but_the_last_dives_again() {
     use Phase::{Apogee, Climb, Complete, Dive, Drift, Surface, Surfacing};
-    let mission = Mission { surfacings: 2, drift_time_s: 2_000, abort_depth_mm: 120_000, ..mission() };
+    let mission = Mission { surfacings: 2, drift_time_s: 2_000, max_duration_s: 7_200, ..mission() };
     // Longer at one depth than a glide may be; depth is let settle at the surface after each climb.
     let dive = [(300, 50, -250_000), (8_400, 100, 0), (300, 60, 250_000), (300, 2, 250_000), (600, 0, 300_000)];
     let flown = [&[(40, 0, 300_000)][..], &dive[..], &dive[..]].concat();

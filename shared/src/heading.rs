@@ -54,7 +54,7 @@ impl TurnTrim {
 /// A turn goes on until its error is this part of the deadband: at its edge it would begin again and again.
 const ENOUGH: i32 = 4;
 /// Time in which an error shall be gone, in lags.
-const LAGS: f32 = 2.0;
+const LAGS: f32 = 2.25;
 /// Part of a difference of turn rates that is believed at once.
 const BIAS_SHARE: f32 = 0.25;
 
@@ -116,8 +116,8 @@ impl HeadingLoop {
     /// Time in which an error shall be gone, s.
     ///
     /// Heading integrates a turn rate that lags by the turn length over the speed and by the period, half of it for the mean
-    /// and half until the next look. An integrator of time T behind a lag τ is damped by ½√(T/τ): 1/√2 at T = 2 τ, which leaves a
-    /// gain margin of 1.79 or more wherever the trim table's missions fly (`glider margins`).
+    /// and half until the next look. An integrator of time T behind a lag τ is damped by ½√(T/τ): ¾ at T = 2.25 τ, which leaves a
+    /// gain margin of 2 wherever the trim table's missions fly (`glider margins`).
     fn time_s(&self, table: &TrimTable<'_>, steady: &Steady) -> f32 {
         self.time_s.unwrap_or_else(|| {
             let [dive_m, climb_m] = table.vehicle().glide.turn_length_m;

@@ -4,10 +4,9 @@ use std::{io::Write, path::PathBuf};
 
 use serde::Serialize;
 
-use super::trim::GlideArgs;
+use super::{size::AnchoringArgs, trim::GlideArgs};
 use crate::{
     chart::Figure,
-    coefficients::{Anchoring, Study},
     locus::{Loci, Locus, Varied, vary},
     modes::RollKinematics,
     paper::loci::panel,
@@ -36,9 +35,8 @@ pub(super) struct Args {
     /// φ̇ = p + r tanθ, or φ̇ = p as in the paper's Table 2
     #[arg(long, value_enum, default_value_t = RollKinematics::Exact)]
     roll_kinematics: RollKinematics,
-    /// Coefficients from geometry alone, even if the file gives its own
-    #[arg(long)]
-    unanchored: bool,
+    #[command(flatten)]
+    anchoring: AnchoringArgs,
     /// Also draw both loci, as SVG
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -56,8 +54,7 @@ struct Answer<'a> {
 
 pub(super) fn run(args: &Args) -> Result<(), String> {
     let vehicle = super::load_vehicle(&args.vehicle)?;
-    let anchoring = if args.unanchored { Anchoring::Unanchored } else { Anchoring::Anchored };
-    let study = Study { anchoring, ..Study::new(&vehicle) };
+    let study = args.anchoring.study(&vehicle);
     let (condition, scale) = args.glide.wanted(&vehicle);
     let points = usize::from(args.points);
     let loci = vary(&study, args.parameter, [args.from, args.to], points, condition, scale, args.roll_kinematics)?;

@@ -2,9 +2,8 @@
 
 use std::{io::Write, path::PathBuf};
 
-use super::trim::GlideArgs;
+use super::{size::AnchoringArgs, trim::GlideArgs};
 use crate::{
-    coefficients::{Anchoring, Study},
     modes::RollKinematics,
     sensitivity::{Effect, Merit, Sensitivities, sensitivities},
     whole_file,
@@ -20,9 +19,8 @@ pub(super) struct Args {
     /// φ̇ = p + r tanθ, or φ̇ = p as in the paper's Table 2
     #[arg(long, value_enum, default_value_t = RollKinematics::Exact)]
     roll_kinematics: RollKinematics,
-    /// Coefficients from geometry alone, even if the file gives its own
-    #[arg(long)]
-    unanchored: bool,
+    #[command(flatten)]
+    anchoring: AnchoringArgs,
     /// Also draw the ranking, as SVG
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -33,8 +31,7 @@ pub(super) struct Args {
 
 pub(super) fn run(args: &Args) -> Result<(), String> {
     let vehicle = super::load_vehicle(&args.vehicle)?;
-    let anchoring = if args.unanchored { Anchoring::Unanchored } else { Anchoring::Anchored };
-    let study = Study { anchoring, ..Study::new(&vehicle) };
+    let study = args.anchoring.study(&vehicle);
     let (condition, scale) = args.glide.wanted(&vehicle);
     let found = sensitivities(&study, condition, scale, args.roll_kinematics)?;
     if let Some(path) = &args.output {

@@ -20,9 +20,23 @@ pub(super) struct ShapeArgs {
     /// Mass of water that the hull displaces, kg: its diameter gives way (or its length, where the fineness is set)
     #[arg(long, value_name = "KG")]
     displacement: Option<f64>,
+    #[command(flatten)]
+    anchoring: AnchoringArgs,
+}
+
+/// Where a changed shape's coefficients come from.
+#[derive(Debug, clap::Args)]
+pub(super) struct AnchoringArgs {
     /// Take coefficients from the geometry alone, instead of changing the vehicle's own by what the geometry changes
     #[arg(long)]
     unanchored: bool,
+}
+
+impl AnchoringArgs {
+    pub(super) fn study<'a>(&self, vehicle: &'a Vehicle) -> Study<'a> {
+        let anchoring = if self.unanchored { Anchoring::Unanchored } else { Anchoring::Anchored };
+        Study { anchoring, ..Study::new(vehicle) }
+    }
 }
 
 #[derive(Debug, clap::Args)]
@@ -83,8 +97,7 @@ impl ShapeArgs {
     }
 
     pub(super) fn study<'a>(&self, vehicle: &'a Vehicle) -> Study<'a> {
-        let anchoring = if self.unanchored { Anchoring::Unanchored } else { Anchoring::Anchored };
-        Study { anchoring, ..Study::new(vehicle) }
+        self.anchoring.study(vehicle)
     }
 }
 

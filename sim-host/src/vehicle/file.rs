@@ -18,7 +18,7 @@ use super::{
     MomentFrame, MovingMass, Vehicle, Water, Wing, plan_area_m2, side_area_m2,
 };
 use crate::{
-    coefficients::{Parameter, Shape, Stream},
+    coefficients::{Coefficients, Parameter, Shape, Stream},
     toml_file::{self, FileError, Rule, Section},
 };
 
@@ -181,46 +181,28 @@ fn hydrodynamics(section: &mut Section<'_>, hull: &Hull, wing: &Wing) -> Hydrody
     let span_m = section.number_or("span_m", Positive, wing.span_m(hull));
     let chord_m = section.number_or("chord_m", Positive, wing.chord_m(hull));
     let moment_frame = section.choice_or_first("moment_frame", &frames).unwrap_or(MomentFrame::Body);
-    let [c_d_zero, c_d_induced] =
-        section.section("drag", |drag| [drag.number("zero", Positive), drag.number("induced", NotNegative)]);
-    let [c_l_zero, c_l_alpha, c_l_q] = section.section("lift", |lift| {
-        [lift.number_or("zero", Finite, 0.0), lift.number("alpha", Positive), lift.number_or("q", Finite, 0.0)]
-    });
-    let [c_y_beta, c_y_p, c_y_r] = section.section("side", |side| {
-        [side.number("beta", NotPositive), side.number_or("p", Finite, 0.0), side.number_or("r", Finite, 0.0)]
-    });
-    let [c_roll_beta, c_roll_p, c_roll_r] = section.section("roll", |roll| {
-        [roll.number("beta", Finite), roll.number("p", NotPositive), roll.number_or("r", Finite, 0.0)]
-    });
-    let [c_m_zero, c_m_alpha, c_m_q] = section.section("pitch", |pitch| {
-        [pitch.number_or("zero", Finite, 0.0), pitch.number("alpha", Finite), pitch.number("q", NotPositive)]
-    });
-    let [c_n_beta, c_n_p, c_n_r] = section.section("yaw", |yaw| {
-        [yaw.number("beta", Finite), yaw.number_or("p", Finite, 0.0), yaw.number("r", NotPositive)]
-    });
-    Hydrodynamics {
+    let coefficients = Coefficients {
         area_m2,
         span_m,
         chord_m,
-        moment_frame,
-        c_d_zero,
-        c_d_induced,
-        c_l_zero,
-        c_l_alpha,
-        c_l_q,
-        c_y_beta,
-        c_y_p,
-        c_y_r,
-        c_roll_beta,
-        c_roll_p,
-        c_roll_r,
-        c_m_zero,
-        c_m_alpha,
-        c_m_q,
-        c_n_beta,
-        c_n_p,
-        c_n_r,
-    }
+        drag: section.section("drag", |drag| [drag.number("zero", Positive), drag.number("induced", NotNegative)]),
+        lift: section.section("lift", |lift| {
+            [lift.number_or("zero", Finite, 0.0), lift.number("alpha", Positive), lift.number_or("q", Finite, 0.0)]
+        }),
+        side: section.section("side", |side| {
+            [side.number("beta", NotPositive), side.number_or("p", Finite, 0.0), side.number_or("r", Finite, 0.0)]
+        }),
+        roll: section.section("roll", |roll| {
+            [roll.number("beta", Finite), roll.number("p", NotPositive), roll.number_or("r", Finite, 0.0)]
+        }),
+        pitch: section.section("pitch", |pitch| {
+            [pitch.number_or("zero", Finite, 0.0), pitch.number("alpha", Finite), pitch.number("q", NotPositive)]
+        }),
+        yaw: section.section("yaw", |yaw| {
+            [yaw.number("beta", Finite), yaw.number_or("p", Finite, 0.0), yaw.number("r", NotPositive)]
+        }),
+    };
+    coefficients.hydrodynamics(moment_frame)
 }
 
 fn buoyancy(buoyancy: &mut Section<'_>) -> Buoyancy {

@@ -17,6 +17,12 @@ pub fn cos(x: f32) -> f32 {
     libm::cosf(x)
 }
 
+/// Both, for little more than one of them; the same bits.
+#[must_use]
+pub fn sin_cos(x: f32) -> (f32, f32) {
+    libm::sincosf(x)
+}
+
 /// Angle of the vector (x, y), rad.
 #[must_use]
 pub fn atan2(y: f32, x: f32) -> f32 {
@@ -75,6 +81,15 @@ pub const fn wrap_cdeg(angle_cdeg: i32) -> i32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn sine_and_cosine_together_have_the_bits_that_they_have_alone() {
+        for step in -32_000_i16..=32_000 {
+            let x = f32::from(step) * 3.1e-4;
+            let (sine, cosine) = sin_cos(x);
+            assert_eq!((sine.to_bits(), cosine.to_bits()), (sin(x).to_bits(), cos(x).to_bits()), "{x}");
+        }
+    }
 
     #[test]
     fn wraps_to_the_short_way_round() {

@@ -270,9 +270,7 @@ const fn wrap_e7(difference: i64) -> i64 {
 
 /// Rotation from body axes to north, east, down: 3-2-1 Euler angles, rad.
 fn rotation(phi: f32, theta: f32, psi: f32) -> Matrix3<f32> {
-    let (sf, cf) = (math::sin(phi), math::cos(phi));
-    let (st, ct) = (math::sin(theta), math::cos(theta));
-    let (sp, cp) = (math::sin(psi), math::cos(psi));
+    let ((sf, cf), (st, ct), (sp, cp)) = (math::sin_cos(phi), math::sin_cos(theta), math::sin_cos(psi));
     Matrix3::new(
         ct * cp,
         sf * st * cp - cf * sp,

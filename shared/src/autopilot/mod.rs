@@ -58,6 +58,8 @@ struct Config<'a> {
     vbd_servo: Servo,
     dive: Steady,
     climb: Steady,
+    dive_pitch_cdeg: i32,
+    climb_pitch_cdeg: i32,
     apogee_pitch_cdeg: i32,
     pitch_rate_rad_s: f32,
     altitude_samples: u32,
@@ -236,8 +238,11 @@ impl<'a> Config<'a> {
         let (r_px_rate, mu_rate) = (actuators.r_px_rate_um_s, actuators.mu_rate_cdeg_s);
         let dive = steady(mission.dive_path_angle_cdeg, mission.dive_net_mass_g);
         let climb = steady(mission.climb_path_angle_cdeg, mission.climb_net_mass_g);
+        let pitch_cdeg = |steady: &Steady| math::round_to_i32(steady.pitch_rad(table) / RAD_PER_CDEG);
         Self {
             pitch_rate_rad_s: pitch_rate_rad_s(table, &dive, &climb),
+            dive_pitch_cdeg: pitch_cdeg(&dive),
+            climb_pitch_cdeg: pitch_cdeg(&climb),
             supervisor: Supervisor::new(mission, parameters),
             pitch: PitchLoop::new(parameters),
             heading: HeadingLoop::new(parameters),
@@ -267,8 +272,8 @@ impl<'a> Config<'a> {
         vehicle.vbd_ul(net_mass_g)
     }
 
-    fn pitch_cdeg(&self, steady: &Steady) -> i32 {
-        math::round_to_i32(steady.pitch_rad(&self.table) / RAD_PER_CDEG)
+    const fn pitch_cdeg(&self, steady: &Steady) -> i32 {
+        if steady.path_angle_rad < 0.0 { self.dive_pitch_cdeg } else { self.climb_pitch_cdeg }
     }
 
     /// Axial position for the nearly level pitch of a reversal: the glide's own, scaled by the pitches.

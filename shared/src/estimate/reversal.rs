@@ -47,6 +47,7 @@ pub struct Forecast {
 struct Rollout {
     motion: Motion<f32>,
     drive: Drive<f32>,
+    sink_rate_m_s: f32,
     sinking: bool,
     passed: bool,
     time_s: f32,
@@ -81,11 +82,13 @@ impl Forecast {
 
 impl Rollout {
     fn new(motion: &Motion<f32>, drive: &Drive<f32>) -> Self {
+        let sink_rate_m_s = motion.sink_rate_m_s(drive.pitch_rad, drive.roll_rad);
         Self {
             // What the mass did a tick ago is not to be taken for what it does in a whole step.
             motion: Motion::new(motion.u_m_s, motion.w_m_s),
             drive: Drive { pitch_rate_rad_s: 0.0, ..*drive },
-            sinking: motion.sink_rate_m_s(drive.pitch_rad, drive.roll_rad) > 0.0,
+            sink_rate_m_s,
+            sinking: sink_rate_m_s > 0.0,
             passed: false,
             time_s: 0.0,
             way_m: 0.0,
@@ -94,7 +97,7 @@ impl Rollout {
 
     /// One step; whether the vertical speed changed sign.
     fn step(&mut self, model: &Model<f32>, plan: &Plan) -> bool {
-        let before_m_s = self.sink_rate_m_s();
+        let before_m_s = self.sink_rate_m_s;
         self.time_s += STEP_S;
         let net_mass_kg = toward(self.drive.net_mass_kg, plan.next_net_mass_kg, plan.net_mass_rate_kg_s * STEP_S);
         self.drive.net_mass_kg = net_mass_kg;
@@ -107,13 +110,9 @@ impl Rollout {
         }
         self.drive.pitch_rate_rad_s = (self.drive.pitch_rad - pitch_rad) / STEP_S;
         self.motion = model.step(&self.motion, &self.drive);
-        let sink_rate_m_s = self.sink_rate_m_s();
-        self.way_m += 0.5 * (before_m_s + sink_rate_m_s) * STEP_S;
-        (sink_rate_m_s > 0.0) != self.sinking || self.time_s >= LONGEST_S
-    }
-
-    fn sink_rate_m_s(&self) -> f32 {
-        self.motion.sink_rate_m_s(self.drive.pitch_rad, self.drive.roll_rad)
+        self.sink_rate_m_s = self.motion.sink_rate_m_s(self.drive.pitch_rad, self.drive.roll_rad);
+        self.way_m += 0.5 * (before_m_s + self.sink_rate_m_s) * STEP_S;
+        (self.sink_rate_m_s > 0.0) != self.sinking || self.time_s >= LONGEST_S
     }
 }
 

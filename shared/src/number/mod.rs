@@ -17,6 +17,10 @@ pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = 
     fn value(self) -> f32;
     /// Sine and cosine of an angle in rad.
     fn sin_cos(self) -> (Self, Self);
+    /// Cosine alone.
+    fn cos(self) -> Self {
+        self.sin_cos().1
+    }
     /// Angle of the vector (x, self), rad; 0 for the zero vector.
     fn atan2(self, x: Self) -> Self;
     /// √(self² + other²).
@@ -35,7 +39,11 @@ impl Number for f32 {
     }
 
     fn sin_cos(self) -> (Self, Self) {
-        (math::sin(self), math::cos(self))
+        math::sin_cos(self)
+    }
+
+    fn cos(self) -> Self {
+        math::cos(self)
     }
 
     fn atan2(self, x: Self) -> Self {

@@ -146,8 +146,7 @@ impl<N: Number> Motion<N> {
     #[must_use]
     pub fn sink_rate_m_s(&self, pitch_rad: N, roll_rad: N) -> N {
         let (sin_pitch, cos_pitch) = pitch_rad.sin_cos();
-        let (_, cos_roll) = roll_rad.sin_cos();
-        self.w_m_s * cos_roll * cos_pitch - self.u_m_s * sin_pitch
+        self.w_m_s * roll_rad.cos() * cos_pitch - self.u_m_s * sin_pitch
     }
 }
 
@@ -183,11 +182,12 @@ impl<N: Number> Model<N> {
         let r_px_rate = (now.r_px_m - before.r_px_m) * self.rate_hz;
         // Momenta over mass are what the balance is about: they change smoothly even where a rate jumps.
         let (surge, heave) = self.momenta(motion, &before, before_rate);
-        let (surge_rate, heave_rate) = self.rates(surge, heave, motion, &between);
+        let weight = self.weight(&between);
+        let (surge_rate, heave_rate) = self.rates(surge, heave, motion, &between, weight);
         let half = N::new(0.5) * self.dt_s;
         let (middle_surge, middle_heave) = (surge + half * surge_rate, heave + half * heave_rate);
         let middle = self.motion(middle_surge, middle_heave, &between, r_px_rate);
-        let (surge_rate, heave_rate) = self.rates(middle_surge, middle_heave, &middle, &between);
+        let (surge_rate, heave_rate) = self.rates(middle_surge, middle_heave, &middle, &between, weight);
         self.motion(surge + self.dt_s * surge_rate, heave + self.dt_s * heave_rate, &now, r_px_rate)
     }
 
@@ -214,20 +214,24 @@ impl<N: Number> Model<N> {
         self.heave_arm_m + self.heave_arm_per_r_px * drive.r_px_m
     }
 
-    /// Rates of the momenta over mass, m/s².
-    fn rates(&self, surge: N, heave: N, motion: &Motion<N>, drive: &Drive<N>) -> (N, N) {
-        let (u, w) = (motion.u_m_s, motion.w_m_s);
+    /// Net weight over m₁ along b1 and b3, m/s².
+    fn weight(&self, drive: &Drive<N>) -> (N, N) {
         let (sin_pitch, cos_pitch) = drive.pitch_rad.sin_cos();
-        let (_, cos_roll) = drive.roll_rad.sin_cos();
         let weight = self.gravity * drive.net_mass_kg;
+        (-(weight * sin_pitch), weight * cos_pitch * drive.roll_rad.cos())
+    }
+
+    /// Rates of the momenta over mass, m/s².
+    fn rates(&self, surge: N, heave: N, motion: &Motion<N>, drive: &Drive<N>, (weight_x, weight_z): (N, N)) -> (N, N) {
+        let (u, w) = (motion.u_m_s, motion.w_m_s);
         let q = drive.pitch_rate_rad_s;
         let lift_factor = self.lift_zero + self.lift_alpha * motion.alpha_rad() + self.lift_rate * q;
         // Both per unit speed, so that no division by the speed is left.
         let dynamic = drive.density_ratio * motion.speed_m_s();
         let lift = lift_factor * dynamic;
         let drag = (self.drag_zero + self.drag_induced * lift_factor * lift_factor) * dynamic;
-        let x = lift * w - drag * u - weight * sin_pitch;
-        let z = -(lift * u) - drag * w + weight * cos_pitch * cos_roll;
+        let x = lift * w - drag * u + weight_x;
+        let z = -(lift * u) - drag * w + weight_z;
         (x - self.heave_over_surge * heave * q, self.surge_over_heave * z + self.surge_over_heave * surge * q)
     }
 }

@@ -64,6 +64,7 @@ pub mod margins;
 pub mod mission_file;
 pub mod modes;
 pub mod ocean;
+mod page;
 pub mod paper;
 pub mod parallel;
 pub mod performance;

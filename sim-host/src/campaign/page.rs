@@ -1,13 +1,16 @@
 //! A campaign as one HTML page that needs nothing else.
 
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{Markup, PreEscaped, html};
 
 use super::{
     Flown, METRICS, Tally,
     statistics::{parties, quantile, sorted, values},
     table::{cells, share},
 };
-use crate::chart::{Figure, Line, Panel, Scale, Stroke};
+use crate::{
+    chart::{Figure, Line, Panel, Scale, Stroke},
+    page::{STYLE, page},
+};
 
 /// Figures that are drawn.
 const DRAWN: [&str; 8] = [
@@ -30,25 +33,14 @@ const ABOUT: &str = "Each seed is a vehicle that differs a little from its file:
 /// The page; `title` says what was flown.
 #[must_use]
 pub fn html(title: &str, flown: &[Flown], tallies: &[Tally]) -> String {
-    let page = html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                title { (title) }
-                style { (PreEscaped(include_str!("page.css"))) }
-            }
-            body {
+    let body = html! {
                 h1 { (title) }
                 p { (ABOUT) }
                 div.scroll { (PreEscaped(distributions(flown).svg())) }
                 @for pilots in tallies.chunk_by(|a, b| a.environment == b.environment) { (table(pilots)) }
                 dl { @for metric in METRICS { dt { (metric.name) } dd { (metric.about) } } }
-            }
-        }
     };
-    page.into_string()
+    page(title, STYLE, &body)
 }
 
 fn table(pilots: &[Tally]) -> Markup {

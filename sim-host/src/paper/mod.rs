@@ -8,9 +8,9 @@ pub mod turning;
 
 use std::{fs, io::Write, path::Path};
 
-use maud::{DOCTYPE, PreEscaped, html};
+use maud::{PreEscaped, html};
 
-use crate::{chart::Figure, vehicle::Vehicle, whole_file};
+use crate::{chart::Figure, page::page, vehicle::Vehicle, whole_file};
 use comparison::{Row, Trend};
 
 /// The vehicle whose tables the paper prints.
@@ -83,25 +83,15 @@ impl Reproduction {
     }
 
     fn page(&self) -> String {
-        let page = html! {
-            (DOCTYPE)
-            html lang="en" {
-                head {
-                    meta charset="utf-8";
-                    meta name="viewport" content="width=device-width, initial-scale=1";
-                    title { "Fan & Woolsey (2013), side by side" }
-                    style { (PreEscaped(include_str!("page.css"))) }
-                }
-                body {
-                    h1 { "Fan & Woolsey (2013), side by side" }
+        let title = "Fan & Woolsey (2013), side by side";
+        let body = html! {
+                    h1 { (title) }
                     (comparison::tables(&self.rows, &self.trends))
                     h2 { "What the paper leaves open" }
                     ul { @for remark in REMARKS { li { (remark) } } }
                     h2 { "Figures" }
                     @for (_, figure) in &self.figures { div.figure { (PreEscaped(figure.svg())) } }
-                }
-            }
         };
-        page.into_string()
+        page(title, include_str!("page.css"), &body)
     }
 }

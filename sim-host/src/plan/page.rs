@@ -1,11 +1,12 @@
 //! A plan drawn: the way from above, where it comes up, depth over time; as a figure and as a page with its numbers.
 
-use maud::{DOCTYPE, PreEscaped, html};
+use maud::{PreEscaped, html};
 
 use super::Plan;
 use crate::{
     chart::{Figure, Line, Mark, Panel, Place, Scale, Stroke},
     flight::{NorthEast, Outcome},
+    page::{STYLE, page},
 };
 
 const ABOUT: &str = "The nominal flight has everything as the files say. Each member of the ensemble is a vehicle that differs \
@@ -16,24 +17,13 @@ const ABOUT: &str = "The nominal flight has everything as the files say. Each me
 /// The plan as one page that needs nothing else; `title` says what is flown, `lines` are its numbers in words.
 #[must_use]
 pub fn html(title: &str, lines: &[[String; 2]], plan: &Plan) -> String {
-    let page = html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                title { (title) }
-                style { (PreEscaped(include_str!("../campaign/page.css"))) }
-            }
-            body {
+    let body = html! {
                 h1 { (title) }
                 dl { @for [name, words] in lines { dt { (name) } dd { (words) } } }
                 div.scroll { (PreEscaped(figure(title, plan).svg())) }
                 p { (ABOUT) }
-            }
-        }
     };
-    page.into_string()
+    page(title, STYLE, &body)
 }
 
 /// The plan as a figure.

@@ -7,13 +7,14 @@ mod tables;
 mod traces;
 mod track;
 
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{Markup, PreEscaped, html};
 use shared::mission::Mission;
 
 use crate::{
     chart::plot::{self, BELOW_PX, LEFT_PX, Plot},
     draw::{DrawnGlide, sheet},
     flight::Summary,
+    page::page,
     record::Record,
     trim::{Condition, Scale, glide},
     vehicle::Vehicle,
@@ -54,17 +55,9 @@ impl Flight<'_> {
 #[must_use]
 pub fn html(flight: &Flight<'_>) -> String {
     let name = &flight.vehicle.name;
-    let page = html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                title { "Dive of " (name) }
-                style { (PreEscaped(include_str!("report.css"))) (PreEscaped(plot::CSS)) }
-            }
-            body {
-                header { h1 { "Dive of " (name) } p { (mission_line(flight.mission)) } }
+    let title = format!("Dive of {name}");
+    let body = html! {
+                header { h1 { (title) } p { (mission_line(flight.mission)) } }
                 main {
                     (tables::headline(flight))
                     (over_time(flight))
@@ -78,10 +71,8 @@ pub fn html(flight: &Flight<'_>) -> String {
                         section.drawing { h2 { "Vehicle" } div.scroll { (PreEscaped(drawing)) } }
                     }
                 }
-            }
-        }
     };
-    page.into_string()
+    page(&title, &[include_str!("report.css"), plot::CSS].concat(), &body)
 }
 
 /// The mission in one line.

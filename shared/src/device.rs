@@ -6,7 +6,7 @@
 use postcard_schema::Schema;
 use serde::{Deserialize, Serialize};
 
-use crate::{mission::Phase, supervisor::Abort};
+use crate::{guidance::Aim, mission::Phase, supervisor::Abort};
 
 /// Ticks per second of [`crate::autopilot::Autopilot::step`].
 pub const TICK_HZ: u32 = 4;
@@ -125,6 +125,8 @@ pub struct Commands {
     pub target_pitch_cdeg: i16,
     /// Heading that is aimed at, 0.01°, 0 to 35999.
     pub target_heading_cdeg: u16,
+    /// What that heading is for.
+    pub aim: Aim,
     /// Dead-reckoned position north of the mission's origin, mm.
     pub north_mm: i32,
     /// Dead-reckoned position east of the mission's origin, mm.
@@ -168,6 +170,7 @@ impl Commands {
             abort: None,
             target_pitch_cdeg: 0,
             target_heading_cdeg: 0,
+            aim: Aim::Heading,
             north_mm: 0,
             east_mm: 0,
             learned: Learned {

@@ -35,8 +35,10 @@
 extern crate std;
 
 pub mod autopilot;
+pub mod depth_hold;
 pub mod device;
 pub mod estimate;
+pub mod guidance;
 pub mod heading;
 pub mod math;
 pub mod mission;

@@ -158,11 +158,15 @@ impl Navigator {
     /// Position north and east of the origin, mm, held to what an `i32` reaches (2147 km).
     #[must_use]
     pub fn position_mm(&self) -> (i32, i32) {
-        let mm = |um: i64| {
-            let mm = um / UM_PER_MM;
-            i32::try_from(mm).unwrap_or(if mm < 0 { i32::MIN } else { i32::MAX })
-        };
-        (mm(self.north_um), mm(self.east_um))
+        (saturated_mm(self.north_um), saturated_mm(self.east_um))
+    }
+
+    /// How far north and east of the vehicle a place lies, mm; nothing before the first fix.
+    #[must_use]
+    pub fn offset_mm(&self, place: &GpsFix) -> Option<(i32, i32)> {
+        let (north_um, east_um) = from_origin_um(&self.origin?, place);
+        let north_mm = saturated_mm(north_um.saturating_sub(self.north_um));
+        Some((north_mm, saturated_mm(east_um.saturating_sub(self.east_um))))
     }
 
     /// Depth, mm.
@@ -238,13 +242,7 @@ impl Navigator {
     /// Sets the position to the fix; the first one becomes the origin. The first one after a dive teaches the drift.
     fn take_fix(&mut self, tick: u32, fix: GpsFix) {
         let origin = *self.origin.get_or_insert(fix);
-        let north_e7 = fix.lat_e7.wrapping_sub(origin.lat_e7);
-        let east_e7 = wrap_e7(i64::from(fix.lon_e7).saturating_sub(i64::from(origin.lon_e7)));
-        let m_per_e7_east = M_PER_E7 * math::cos(origin.lat_e7 as f32 * (RAD_PER_CDEG * 1e-5));
-        let um =
-            |e7: f32, m_per_e7: f32| i64::from(math::round_to_i32(e7 * m_per_e7 * MM_PER_M)).saturating_mul(UM_PER_MM);
-        self.north_um = um(north_e7 as f32, M_PER_E7);
-        self.east_um = um(east_e7 as f32, m_per_e7_east);
+        (self.north_um, self.east_um) = from_origin_um(&origin, &fix);
         let fix_um = [self.north_um, self.east_um];
         let since = self.since_fix;
         if since.dived {
@@ -260,6 +258,21 @@ impl Navigator {
 /// Way in one tick, µm.
 fn um_per_tick(metres_per_second: f32) -> i64 {
     i64::from(math::round_to_i32(metres_per_second * TICK_S * UM_PER_M))
+}
+
+/// How far north and east of the origin a place lies, µm.
+fn from_origin_um(origin: &GpsFix, place: &GpsFix) -> (i64, i64) {
+    let north_e7 = place.lat_e7.wrapping_sub(origin.lat_e7);
+    let east_e7 = wrap_e7(i64::from(place.lon_e7).saturating_sub(i64::from(origin.lon_e7)));
+    let m_per_e7_east = M_PER_E7 * math::cos(origin.lat_e7 as f32 * (RAD_PER_CDEG * 1e-5));
+    let um = |e7: f32, m_per_e7: f32| i64::from(math::round_to_i32(e7 * m_per_e7 * MM_PER_M)).saturating_mul(UM_PER_MM);
+    (um(north_e7 as f32, M_PER_E7), um(east_e7 as f32, m_per_e7_east))
+}
+
+/// Micrometres as millimetres, held to what an `i32` reaches.
+fn saturated_mm(um: i64) -> i32 {
+    let mm = um / UM_PER_MM;
+    i32::try_from(mm).unwrap_or(if mm < 0 { i32::MIN } else { i32::MAX })
 }
 
 /// A difference of longitudes, 1e-7°, the short way round: across the date line too.

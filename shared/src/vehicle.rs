@@ -38,6 +38,12 @@ impl FlightVehicle {
         self.glide.mass_kg * thinner - density_kg_m3 * (vbd_ul as f32 / UL_PER_M3)
     }
 
+    /// Weight of the water that the vehicle is ballasted for, N/m³.
+    #[must_use]
+    pub fn weight_density_n_m3(&self) -> f32 {
+        self.density_kg_m3 * self.gravity_m_s2
+    }
+
     /// Volume of the buoyancy device for a net mass given in g, µl.
     #[must_use]
     pub fn vbd_ul(&self, net_mass_g: i16) -> i32 {

@@ -322,4 +322,47 @@ mod tests {
         assert_eq!(rebuilt(&|c| c[0] ^= 1), [Err(Damage::OtherSchema(schema() ^ 1))]);
         assert_eq!(rebuilt(&|c| c.push(9)), [Err(Damage::Unknown)]);
     }
+
+    /// The longest mission with the largest values, and with it the longest message there is.
+    #[test]
+    fn the_largest_configuration_fits_a_frame() {
+        use crate::{
+            device::GpsFix,
+            mission::{Course, MAX_HEADINGS, MAX_WAYPOINTS, Route},
+        };
+        let place = GpsFix { lat_e7: i32::MIN, lon_e7: i32::MIN };
+        let route = Route {
+            places: [place; MAX_WAYPOINTS].into_iter().collect(),
+            capture_radius_mm: i32::MIN,
+            leg_time_s: u32::MAX,
+        };
+        for course in [Course::Waypoints(route), Course::Headings([u16::MAX; MAX_HEADINGS].into_iter().collect())] {
+            let mission = Mission {
+                yos: u16::MAX,
+                surfacings: u16::MAX,
+                dive_to_mm: i32::MIN,
+                climb_to_mm: i32::MIN,
+                dive_path_angle_cdeg: i16::MIN,
+                climb_path_angle_cdeg: i16::MIN,
+                dive_net_mass_g: i16::MIN,
+                climb_net_mass_g: i16::MIN,
+                course,
+                drift_time_s: u32::MAX,
+                flare_depth_mm: i32::MIN,
+                surface_time_s: u16::MAX,
+                altitude_mm: i32::MIN,
+                abort_depth_mm: i32::MIN,
+                max_duration_s: u32::MAX,
+            };
+            let parameters = largest_parameters();
+            let message = Message::Configure(Configuration { mission, parameters });
+            assert_eq!(decode(&frame_of(&message)), [Ok((HEADER, message))]);
+        }
+    }
+
+    /// Each parameter takes the most bytes that an integer can.
+    fn largest_parameters() -> Parameters {
+        let bytes: Vec<u8> = crate::parameters::ROWS.iter().flat_map(|_| [0xff, 0xff, 0xff, 0xff, 0x0f]).collect();
+        postcard::from_bytes(&bytes).unwrap()
+    }
 }

@@ -19,8 +19,9 @@
 
 use shared::{
     device::{Commands, Learned, MM_PER_M, Measurements, TICK_HZ},
+    guidance::Aim,
     math,
-    mission::{Event, Executive, Mission, Phase},
+    mission::{Course, Event, Executive, Mission, Phase, heading_of},
     navigator::Navigator,
     parameters::Parameters,
     servo::{Move, Servo},
@@ -127,7 +128,8 @@ pub struct Baseline {
 impl Baseline {
     /// Of a vehicle's ranges and rates; of the tuning only what concerns phases, servos and supervisor counts.
     ///
-    /// The mission must be one that [`Mission::check`] accepts.
+    /// The mission must be one that [`Mission::check`] accepts and that this controller knows how to fly: by headings, and
+    /// without a drift ([`Baseline::knows`]).
     #[must_use]
     pub fn new(vehicle: &FlightVehicle, mission: &Mission, parameters: &Parameters, sense: TurnSense) -> Self {
         let actuators = &vehicle.actuators;
@@ -153,6 +155,12 @@ impl Baseline {
             pitch: PidState::default(),
             heading: PidState::default(),
         }
+    }
+
+    /// Whether this controller can fly all of a mission.
+    #[must_use]
+    pub const fn knows(mission: &Mission) -> bool {
+        matches!(mission.course, Course::Headings(_)) && mission.drift_time_s == 0
     }
 
     fn supervise(&mut self, tick: u32, measurements: &Measurements) {
@@ -182,20 +190,24 @@ impl Baseline {
             Phase::Surface => (self.is_ready_to_dive(tick), Event::ReadyToDive),
             Phase::Dive => (ahead_mm >= mission.dive_to_mm as f32, Event::DeepEnough),
             Phase::Apogee => (net_mass_g <= 0.5 * f32::from(mission.climb_net_mass_g), Event::Light),
-            Phase::Climb if executive.yo < mission.yos => (reached_top, Event::TopReached),
-            Phase::Climb => (reached_top, Event::LastTopReached),
+            Phase::Climb if mission.surfaces_after(executive.yo) => (reached_top, Event::LastTopReached),
+            Phase::Climb => (reached_top, Event::TopReached),
             Phase::Crest => (net_mass_g >= 0.5 * f32::from(mission.dive_net_mass_g), Event::Heavy),
             Phase::Surfacing => {
-                (self.is_afloat_by_depth() && navigator.depth_rate_m_s.abs() < AFLOAT_RATE_M_S, Event::Afloat)
+                let last = mission.ends_after(executive.yo);
+                (
+                    self.is_afloat_by_depth() && navigator.depth_rate_m_s.abs() < AFLOAT_RATE_M_S,
+                    if last { Event::LastAfloat } else { Event::Afloat },
+                )
             }
-            Phase::Complete | Phase::Recovery => return None,
+            Phase::Drift | Phase::Complete | Phase::Recovery => return None,
         };
         met.then_some(event)
     }
 
     fn is_ready_to_dive(&self, tick: u32) -> bool {
         let navigator = &self.navigator;
-        tick >= u32::from(self.mission.surface_time_s) * TICK_HZ
+        self.executive.has_lasted_s(tick, self.mission.surface_time_s.into())
             && navigator.has_position()
             && navigator.depth_tick == Some(tick)
             && navigator.attitude_tick == Some(tick)
@@ -210,7 +222,7 @@ impl Baseline {
         match self.executive.phase {
             Phase::Surface | Phase::Complete => true,
             Phase::Recovery => self.is_afloat_by_depth(),
-            Phase::Dive | Phase::Apogee | Phase::Climb | Phase::Crest | Phase::Surfacing => false,
+            Phase::Dive | Phase::Drift | Phase::Apogee | Phase::Climb | Phase::Crest | Phase::Surfacing => false,
         }
     }
 
@@ -228,13 +240,16 @@ impl Baseline {
 
     /// Heading of the half-yo under way; an inflection already aims at the next one's.
     fn target_heading_cdeg(&self) -> u16 {
-        let next = u16::from(self.executive.phase == Phase::Crest);
-        self.mission.heading_cdeg(self.executive.yo + next, self.is_heading_up())
+        let next = u16::from(matches!(self.executive.phase, Phase::Crest | Phase::Surface));
+        match &self.mission.course {
+            Course::Headings(headings) => heading_of(headings, self.executive.yo + next, self.is_heading_up()),
+            Course::Waypoints(_) | Course::Spiral(_) => 0,
+        }
     }
 
     fn target_pitch_cdeg(&self) -> i32 {
         match self.executive.phase {
-            Phase::Surface | Phase::Complete => 0,
+            Phase::Surface | Phase::Drift | Phase::Complete => 0,
             Phase::Dive => self.mission.dive_path_angle_cdeg.into(),
             Phase::Apogee => -self.apogee_pitch_cdeg,
             Phase::Crest => self.apogee_pitch_cdeg,
@@ -245,6 +260,7 @@ impl Baseline {
     fn target_vbd_ul(&self) -> i32 {
         match self.executive.phase {
             Phase::Dive | Phase::Crest => self.vehicle.vbd_ul(self.mission.dive_net_mass_g),
+            Phase::Drift => 0,
             Phase::Apogee | Phase::Climb => self.vehicle.vbd_ul(self.mission.climb_net_mass_g),
             Phase::Surface | Phase::Surfacing | Phase::Complete | Phase::Recovery => self.vehicle.actuators.vbd_ul.max,
         }
@@ -269,7 +285,7 @@ impl Baseline {
         let sense = match self.executive.phase {
             Phase::Dive => self.sense.dive,
             Phase::Climb | Phase::Surfacing => self.sense.climb,
-            Phase::Surface | Phase::Apogee | Phase::Crest | Phase::Complete | Phase::Recovery => {
+            Phase::Surface | Phase::Drift | Phase::Apogee | Phase::Crest | Phase::Complete | Phase::Recovery => {
                 self.heading = PidState::default();
                 return 0;
             }
@@ -307,6 +323,7 @@ impl Pilot for Baseline {
             abort: self.abort,
             target_pitch_cdeg: saturated(self.target_pitch_cdeg()),
             target_heading_cdeg: self.target_heading_cdeg(),
+            aim: Aim::Heading,
             north_mm,
             east_mm,
             learned: Learned::default(),

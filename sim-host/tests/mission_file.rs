@@ -2,8 +2,17 @@
 
 #![allow(clippy::unwrap_used, reason = "in a test a panic is the report")]
 
-use shared::{mission::Mission, parameters::Parameters};
-use sim_host::mission_file::{MissionFile, Start};
+use shared::{
+    mission::{Course, Mission},
+    parameters::Parameters,
+    table::TrimTable,
+};
+use sim_host::{
+    flight::FlyingVehicle,
+    mission_file::{MissionFile, Start},
+    table::{Envelope, generate},
+    vehicle::Vehicle,
+};
 
 const DEFAULT: &str = include_str!("../missions/default.toml");
 
@@ -20,13 +29,16 @@ fn the_default_mission_is_two_yos_to_200_m_with_a_turn() {
     assert_eq!(file.parameters, Parameters::default());
     let expected = Mission {
         yos: 2,
+        surfacings: 1,
         dive_to_mm: 200_000,
         climb_to_mm: 5_000,
         dive_path_angle_cdeg: -2_600,
         climb_path_angle_cdeg: 2_600,
         dive_net_mass_g: 250,
         climb_net_mass_g: -250,
-        headings_cdeg: [3_000, 6_000, 6_000, 6_000].into_iter().collect(),
+        course: Course::Headings([3_000, 6_000, 6_000, 6_000].into_iter().collect()),
+        drift_time_s: 0,
+        flare_depth_mm: 0,
         surface_time_s: 60,
         altitude_mm: 0,
         abort_depth_mm: 215_000,
@@ -38,8 +50,8 @@ fn the_default_mission_is_two_yos_to_200_m_with_a_turn() {
 #[test]
 fn headings_wrap_into_one_turn() {
     let text = DEFAULT.replace("[30, 60, 60, 60]", "[-10, 360, 359.999, 90.5]");
-    let headings = MissionFile::from_toml(&text, "m.toml").unwrap().mission.headings_cdeg;
-    assert_eq!(headings, [35_000, 0, 0, 9_050]);
+    let course = MissionFile::from_toml(&text, "m.toml").unwrap().mission.course;
+    assert_eq!(course, Course::Headings([35_000, 0, 0, 9_050].into_iter().collect()));
 }
 
 #[test]
@@ -108,4 +120,101 @@ fn the_schema_knows_every_key_of_the_default_mission() {
     let period = &sections["parameters"]["properties"]["pitch_period_s"];
     assert_eq!((&period["minimum"], &period["default"]), (&2.into(), &20.into()));
     assert!(period["description"].as_str().unwrap().contains("pitch corrections"));
+}
+
+const WAYPOINTS: &str = include_str!("../missions/waypoints.toml");
+
+fn slocum() -> (Vehicle, Vec<u8>) {
+    let vehicle = Vehicle::load("slocum-paper").unwrap();
+    let table = generate(&vehicle, &Envelope::default()).unwrap();
+    (vehicle, table)
+}
+
+#[test]
+fn pitch_and_vertical_speed_become_the_glide_that_has_them() {
+    let (_, bytes) = slocum();
+    let table = TrimTable::parse(&bytes).unwrap();
+    let mission = MissionFile::load("waypoints").unwrap().resolve(&table).unwrap().mission;
+    for (path_cdeg, net_mass_g, pitch_deg, sink_m_s) in [
+        (mission.dive_path_angle_cdeg, mission.dive_net_mass_g, -22.0, 0.25),
+        (mission.climb_path_angle_cdeg, mission.climb_net_mass_g, 22.0, -0.25),
+    ] {
+        let path_rad = (f32::from(path_cdeg) / 100.0).to_radians();
+        let glide = table.look_up(path_rad, f32::from(net_mass_g) / 1e3, 0.0);
+        // Path angles are whole hundredths of a degree and net masses whole grams: 1 g of 150 is 0.3 % of speed.
+        assert!((f64::from(glide.pitch_rad).to_degrees() - pitch_deg).abs() < 0.02, "{glide:?}");
+        assert!((f64::from(glide.sink_rate_m_s) / sink_m_s - 1.0).abs() < 0.005, "{glide:?}");
+    }
+}
+
+#[test]
+fn a_glide_out_of_reach_is_refused_with_what_is_within() {
+    let (_, bytes) = slocum();
+    let table = TrimTable::parse(&bytes).unwrap();
+    for (passage, replacement, begin) in [
+        ("dive_pitch_deg = -22", "dive_pitch_deg = -60", "m.toml:15:18: `mission.dive_pitch_deg` is -60, but"),
+        ("climb_pitch_deg = 22", "climb_pitch_deg = 2", "m.toml:16:19: `mission.climb_pitch_deg` is 2, but"),
+        ("_s = 0.25 ", "_s = 2 ", "m.toml:17:27: `mission.dive_vertical_speed_m_s` is 2, but"),
+    ] {
+        let file = MissionFile::from_toml(&WAYPOINTS.replace(passage, replacement), "m.toml").unwrap();
+        let line = file.resolve(&table).unwrap_err().to_string();
+        assert!(line.starts_with(begin) && line.contains("take"), "{line}");
+    }
+}
+
+#[test]
+fn a_battery_too_small_for_the_mission_is_told() {
+    let (mut vehicle, bytes) = slocum();
+    let table = TrimTable::parse(&bytes).unwrap();
+    let file = MissionFile::load("default").unwrap();
+    let check = |vehicle: &Vehicle| file.check_energy(&FlyingVehicle::new(vehicle).unwrap(), &table);
+    assert_eq!(check(&vehicle), Ok(()));
+    vehicle.energy.as_mut().unwrap().battery_j = 5e3;
+    let line = check(&vehicle).unwrap_err().to_string();
+    assert!(
+        line.starts_with("missions/default.toml:11:7: `mission.yos` is 2 for 1 surfacing, which takes 0.0"),
+        "{line}"
+    );
+    assert!(
+        line.ends_with("but the battery holds 0.01 MJ") || line.ends_with("but the battery holds 0.00 MJ"),
+        "{line}"
+    );
+}
+
+#[test]
+fn a_course_is_one_of_three_and_its_mistakes_have_a_place() {
+    let row = |text: &str, passage: &str, replacement: &str| {
+        assert_eq!(text.matches(passage).count(), 1, "`{passage}` must stand once");
+        MissionFile::from_toml(&text.replace(passage, replacement), "m.toml").unwrap_err().to_string()
+    };
+    assert!(
+        row(DEFAULT, "headings_deg = [30, 60, 60, 60]", "")
+            .starts_with("m.toml:10:1: missing key `mission.headings_deg`")
+    );
+    assert_eq!(
+        row(WAYPOINTS, "surface_time_s = 300", "surface_time_s = 300\nheadings_deg = [7]"),
+        "m.toml:20:16: `mission.headings_deg` is [7], but must be left out beside `waypoints`"
+    );
+    assert_eq!(
+        row(WAYPOINTS, "dive_pitch_deg = -22", "dive_pitch_deg = -22\ndive_path_angle_deg = -26"),
+        "m.toml:15:18: `mission.dive_pitch_deg` is -22, but must be left out beside `dive_path_angle_deg`"
+    );
+    assert_eq!(
+        row(WAYPOINTS, "capture_radius_m = 200", "capture_radius_m = 5"),
+        "m.toml:25:20: `mission.waypoints.capture_radius_m` is 5, but must be a number from 10 to 100000"
+    );
+    assert_eq!(
+        row(WAYPOINTS, "places_m = [[2000, 0], [2000, 1500], [0, 0]]", "places_deg = [[91, 0]]"),
+        "m.toml:24:14: `mission.waypoints.places_deg` is [[91, 0]], but must be 1 to 16 rows of [north, east] on the Earth"
+    );
+}
+
+#[test]
+fn places_in_metres_lie_where_the_sphere_has_them() {
+    let Course::Waypoints(route) = MissionFile::load("waypoints").unwrap().mission.course else { panic!("a route") };
+    // 2000 m of 6371 km is 0.0179864°; a degree of longitude at 59° north is 0.5150381 of one of latitude.
+    let place = &route.places[1];
+    assert!((place.lat_e7 - 590_179_864).abs() <= 1, "{place:?}");
+    assert!((place.lon_e7 - 50_261_920).abs() <= 5, "{place:?}");
+    assert_eq!((route.places[2].lat_e7, route.places[2].lon_e7), (590_000_000, 50_000_000));
 }

@@ -73,7 +73,7 @@ fn sample(tick: u32) -> Sample {
         commands: Commands {
             r_px_rate_um_s: 10_000,
             phase: phases[tick as usize % phases.len()],
-            yo: 1 + u16::try_from(tick / 10).unwrap(),
+            yo: if tick == 0 { 0 } else { 1 + u16::try_from(tick / 10).unwrap() },
             abort: (tick > 30).then_some(Abort::StaleDepth),
             north_mm: 1_234 * i32::from(small),
             east_mm: 5_678 * i32::from(small),

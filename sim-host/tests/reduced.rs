@@ -5,7 +5,7 @@ mod common;
 use common::Interval;
 use shared::{
     autopilot::Autopilot,
-    mission::Phase,
+    mission::{Course, Phase},
     number::{Fixed, Number},
     reduced::{Drive, Model, Motion, limits},
     table::TrimTable,
@@ -173,7 +173,7 @@ fn check_inflections(name: &str, vehicle: &Vehicle, ocean: &Ocean, change: impl 
 
 /// Straight ahead, so that the errors are those of the inflection.
 fn straight(file: &mut MissionFile) {
-    file.mission.headings_cdeg = [0].into_iter().collect();
+    file.mission.course = Course::Headings([0].into_iter().collect());
 }
 
 #[test]

@@ -5,6 +5,7 @@
 use nalgebra::Vector3;
 use shared::{
     device::{Attitude, Commands, Measurements},
+    guidance::Aim,
     mission::Phase,
 };
 use sim_host::{
@@ -54,6 +55,7 @@ fn sample(tick: u32) -> Sample {
             phase,
             yo: u16::from(tick >= PHASE_TICKS),
             target_heading_cdeg: 1_000,
+            aim: Aim::Heading,
             ..Commands::safe()
         },
         truth: Truth {

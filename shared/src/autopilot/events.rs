@@ -2,7 +2,7 @@
 
 use super::{AFLOAT_DEPTH_M, Autopilot, PASS_SHARE};
 use crate::{
-    device::{MM_PER_M, Measurements, TICK_HZ},
+    device::{MM_PER_M, Measurements},
     estimate::reversal::{Forecast, STEP_S},
     math,
     mission::{Event, Phase},
@@ -18,27 +18,34 @@ impl Autopilot<'_> {
     pub(super) fn event(&mut self, tick: u32, measurements: &Measurements) -> Option<Event> {
         let near_bottom = self.is_near_bottom(measurements);
         let (config, navigator, executive) = (&self.config, &self.state.navigator, &self.state.executive);
+        let mission = &config.mission;
+        let arrived = self.state.guide.is_over(mission);
         let net_mass_kg = config.table.vehicle().net_mass_kg(measurements.vbd_ul);
         let depth_mm = navigator.depth_mm();
         let ahead_mm = depth_mm.saturating_add(self.lead_mm());
         let (met, event) = match executive.phase {
             Phase::Surface => (self.is_ready_to_dive(tick), Event::ReadyToDive),
-            Phase::Dive if near_bottom => (true, Event::NearBottom),
-            Phase::Dive => (ahead_mm >= config.mission.dive_to_mm, Event::DeepEnough),
-            Phase::Apogee => (net_mass_kg <= PASS_SHARE * config.climb.net_mass_kg, Event::Light),
-            Phase::Climb if executive.yo < config.mission.yos => {
-                (ahead_mm <= config.mission.climb_to_mm, Event::TopReached)
-            }
+            Phase::Dive | Phase::Drift if near_bottom => (true, Event::NearBottom),
+            Phase::Dive if mission.drift_time_s > 0 => (ahead_mm >= mission.dive_to_mm, Event::DeepEnoughToDrift),
+            Phase::Dive => (ahead_mm >= mission.dive_to_mm, Event::DeepEnough),
+            Phase::Drift => (executive.has_lasted_s(tick, mission.drift_time_s), Event::DriftOver),
+            Phase::Apogee => (net_mass_kg <= PASS_SHARE * config.climb.steady.net_mass_kg, Event::Light),
             // Nothing reverses at the last top.
-            Phase::Climb => (depth_mm <= config.mission.climb_to_mm, Event::LastTopReached),
-            Phase::Crest => (net_mass_kg >= PASS_SHARE * config.dive.net_mass_kg, Event::Heavy),
-            Phase::Surfacing => (
-                navigator.depth_m < AFLOAT_DEPTH_M && math::abs(navigator.depth_rate_m_s) < AFLOAT_RATE_M_S,
-                Event::Afloat,
-            ),
+            Phase::Climb if arrived || mission.surfaces_after(executive.yo) => {
+                (depth_mm <= mission.climb_to_mm, Event::LastTopReached)
+            }
+            Phase::Climb => (ahead_mm <= mission.climb_to_mm, Event::TopReached),
+            Phase::Crest => (net_mass_kg >= PASS_SHARE * config.dive.steady.net_mass_kg, Event::Heavy),
+            Phase::Surfacing if arrived || mission.ends_after(executive.yo) => (self.is_at_rest(), Event::LastAfloat),
+            Phase::Surfacing => (self.is_at_rest(), Event::Afloat),
             Phase::Complete | Phase::Recovery => (false, Event::Abort),
         };
         met.then_some(event)
+    }
+
+    fn is_at_rest(&self) -> bool {
+        let navigator = &self.state.navigator;
+        navigator.depth_m < AFLOAT_DEPTH_M && math::abs(navigator.depth_rate_m_s) < AFLOAT_RATE_M_S
     }
 
     /// Goes on to find out where a reversal that begins now would turn.
@@ -61,10 +68,10 @@ impl Autopilot<'_> {
         math::round_to_i32(self.state.forecast.lead_m() * MM_PER_M)
     }
 
-    /// Whether a dive that turns now comes as near to the sea floor as it may; one false echo does not say so.
+    /// Whether a vehicle that turns now comes as near to the sea floor as it may; one false echo does not say so.
     fn is_near_bottom(&mut self, measurements: &Measurements) -> bool {
         let least_mm = self.config.mission.altitude_mm;
-        if least_mm == 0 || self.state.executive.phase != Phase::Dive {
+        if least_mm == 0 || !matches!(self.state.executive.phase, Phase::Dive | Phase::Drift) {
             self.state.bottom = Streak::default();
             return false;
         }
@@ -74,9 +81,9 @@ impl Autopilot<'_> {
     }
 
     fn is_ready_to_dive(&self, tick: u32) -> bool {
-        let navigator = &self.state.navigator;
-        tick >= u32::from(self.config.mission.surface_time_s).saturating_mul(TICK_HZ)
-            && navigator.has_position()
+        let (navigator, executive) = (&self.state.navigator, &self.state.executive);
+        executive.has_lasted_s(tick, self.config.mission.surface_time_s.into())
+            && self.state.fix_tick.is_some_and(|fix_tick| fix_tick >= executive.since_tick)
             && navigator.depth_tick == Some(tick)
             && navigator.attitude_tick == Some(tick)
     }

@@ -4,13 +4,16 @@
 //! [`Autopilot::new`].
 
 mod events;
+mod targets;
 
 use crate::{
-    device::{Commands, Learned, Measurements, RAD_PER_CDEG, TICK_HZ, UL_PER_M3, UM_PER_M},
+    depth_hold::DepthHold,
+    device::{Commands, Learned, Measurements, RAD_PER_CDEG, UL_PER_M3, UM_PER_M},
     estimate::reversal::{Forecast, Plan},
+    guidance::{Guide, Sight},
     heading::{HeadingLoop, TurnTrim},
     math,
-    mission::{Event, Executive, Mission, Phase, Unflyable},
+    mission::{Course, Event, Executive, Mission, Phase, Unflyable},
     navigator::Navigator,
     parameters::{Parameters, Row},
     pitch::{PitchLoop, PitchTrim, Steady},
@@ -18,15 +21,11 @@ use crate::{
     streak::Streak,
     supervisor::{Abort, Supervisor, Vitals, Watch},
     table::TrimTable,
-    vehicle::{FlightVehicle, Range},
+    vehicle::Range,
 };
 
 /// Depth above which the vehicle counts as afloat, m.
 const AFLOAT_DEPTH_M: f32 = 1.0;
-/// Depth above which heading is left alone, since the wings are about to leave the water or just entered it, m.
-const HEADING_DEPTH_M: f32 = 2.0;
-/// Time after an inflection before heading is controlled again, s.
-const TURN_SETTLE_S: u32 = 12;
 const KG_PER_G: f32 = 1e-3;
 
 /// Why an autopilot cannot be built.
@@ -56,13 +55,25 @@ struct Config<'a> {
     r_px_servo: Servo,
     mu_servo: Servo,
     vbd_servo: Servo,
-    dive: Steady,
-    climb: Steady,
-    dive_pitch_cdeg: i32,
-    climb_pitch_cdeg: i32,
+    dive: Side,
+    climb: Side,
     apogee_pitch_cdeg: i32,
     pitch_rate_rad_s: f32,
     altitude_samples: u32,
+}
+
+/// One of the two glides of a yo.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Side {
+    steady: Steady,
+    /// Pitch with the wings level, 0.01°.
+    pitch_cdeg: i32,
+    /// Through the water, m/s.
+    horizontal_speed_m_s: f32,
+    /// Volume of the buoyancy device, µl.
+    vbd_ul: i32,
+    /// Rotation of the mass in a spiral, 0.01°.
+    spiral_mu_cdeg: i32,
 }
 
 /// What does.
@@ -71,13 +82,18 @@ struct State {
     navigator: Navigator,
     executive: Executive,
     watch: Watch,
+    guide: Guide,
     abort: Option<Abort>,
+    /// Tick of the last position fix.
+    fix_tick: Option<u32>,
     forecast: Forecast,
     bottom: Streak,
     dive_trim: PitchTrim,
     climb_trim: PitchTrim,
     dive_turn: TurnTrim,
     climb_turn: TurnTrim,
+    drift_trim: PitchTrim,
+    depth_hold: DepthHold,
     mu_target_cdeg: i32,
     r_px_move: Move,
     mu_move: Move,
@@ -91,7 +107,6 @@ struct Targets {
     mu_cdeg: i32,
     vbd_ul: i32,
     pitch_cdeg: i32,
-    heading_cdeg: u16,
 }
 
 impl<'a> Autopilot<'a> {
@@ -109,13 +124,17 @@ impl<'a> Autopilot<'a> {
 
     /// One tick: what to do, given what is measured. Ticks count from 0 at 4 Hz.
     pub fn step(&mut self, tick: u32, measurements: &Measurements) -> Commands {
-        let afloat = self.state.is_afloat();
-        self.state.navigator.update(self.config.table.vehicle(), tick, measurements, afloat);
+        let resting = !self.state.is_gliding();
+        self.state.navigator.update(self.config.table.vehicle(), tick, measurements, resting);
+        if measurements.gps.is_some() {
+            self.state.fix_tick = Some(tick);
+        }
         self.supervise(tick, measurements);
         self.forecast();
         if let Some(event) = self.event(tick, measurements) {
             self.state.executive.take(tick, event);
         }
+        self.guide(tick);
         let targets = self.targets(tick, measurements);
         self.drive(measurements, &targets)
     }
@@ -127,7 +146,7 @@ impl<'a> Autopilot<'a> {
             depth_mm: state.navigator.depth_mm(),
             depth_tick: state.navigator.depth_tick.unwrap_or(0),
             attitude_tick: state.navigator.attitude_tick.unwrap_or(0),
-            under_way: !state.is_afloat(),
+            under_way: state.is_gliding(),
             measurements,
         };
         if let Some(abort) = self.config.supervisor.judge(&mut state.watch, &vitals)
@@ -137,72 +156,18 @@ impl<'a> Autopilot<'a> {
         }
     }
 
-    fn targets(&mut self, tick: u32, measurements: &Measurements) -> Targets {
-        let actuators = self.config.actuators();
-        let (lightest_ul, nose_down_um) = (actuators.vbd_ul.max, actuators.r_px_um.max);
-        let heading_cdeg = self.state.heading_cdeg(&self.config.mission);
-        let level = |r_px_um, vbd_ul, pitch_cdeg| Targets { r_px_um, mu_cdeg: 0, vbd_ul, pitch_cdeg, heading_cdeg };
-        let config = &self.config;
-        match self.state.executive.phase {
-            // The antenna sits in the tail: nose down lifts it out of the water.
-            Phase::Surface | Phase::Complete => level(nose_down_um, lightest_ul, 0),
-            Phase::Recovery if self.state.navigator.depth_m < AFLOAT_DEPTH_M => level(nose_down_um, lightest_ul, 0),
-            Phase::Recovery => {
-                let r_px_um = PitchLoop::feed_forward_um(&config.table, &config.climb, 0.0);
-                level(r_px_um, lightest_ul, config.pitch_cdeg(&config.climb))
-            }
-            Phase::Apogee => {
-                let r_px_um = config.level_off_um(&config.dive, self.state.dive_trim);
-                level(
-                    r_px_um,
-                    config.vbd_ul(config.mission.climb_net_mass_g),
-                    config.apogee_pitch_cdeg.saturating_neg(),
-                )
-            }
-            Phase::Crest => {
-                let r_px_um = config.level_off_um(&config.climb, self.state.climb_trim);
-                level(r_px_um, config.vbd_ul(config.mission.dive_net_mass_g), config.apogee_pitch_cdeg)
-            }
-            Phase::Dive => self.glide(tick, measurements, config.dive, config.vbd_ul(config.mission.dive_net_mass_g)),
-            Phase::Climb => {
-                self.glide(tick, measurements, config.climb, config.vbd_ul(config.mission.climb_net_mass_g))
-            }
-            Phase::Surfacing => self.glide(tick, measurements, config.climb, lightest_ul),
-        }
-    }
-
-    /// Holds a steady glide on the heading of the half-yo.
-    fn glide(&mut self, tick: u32, measurements: &Measurements, steady: Steady, vbd_ul: i32) -> Targets {
+    fn guide(&mut self, tick: u32) {
         let (config, state) = (&self.config, &mut self.state);
-        let ticks_in_phase = tick.saturating_sub(state.executive.since_tick);
-        let heading_cdeg = state.heading_cdeg(&config.mission);
-        let pitch_cdeg = config.pitch_cdeg(&steady);
-        let attitude = state.navigator.attitude;
-        let (trim, turn) = if steady.path_angle_rad < 0.0 {
-            (&mut state.dive_trim, &mut state.dive_turn)
-        } else {
-            (&mut state.climb_trim, &mut state.climb_turn)
+        let side = if state.is_on_the_way_up() { &config.climb } else { &config.dive };
+        let current_m_s = state.navigator.drift().current_m_s();
+        let sight = Sight {
+            tick,
+            executive: &state.executive,
+            navigator: &state.navigator,
+            current_m_s: (current_m_s.x, current_m_s.y),
+            speed_m_s: side.horizontal_speed_m_s,
         };
-        let mu_rad = f32::from(measurements.mu_cdeg) * RAD_PER_CDEG;
-        let expected = config.table.look_up(steady.path_angle_rad, steady.net_mass_kg, mu_rad);
-        // Beyond the table its axial position is only the edge's: an error there teaches nothing about the trim.
-        if state.executive.phase != Phase::Surfacing && !expected.saturated {
-            let pitch_error_cdeg = pitch_cdeg.saturating_sub(i32::from(attitude.pitch_cdeg));
-            config.pitch.update(trim, &config.table, &steady, ticks_in_phase, pitch_error_cdeg);
-        }
-        let trim_um = trim.trim_um;
-        if state.navigator.depth_m < HEADING_DEPTH_M {
-            state.mu_target_cdeg = 0;
-            turn.begin();
-        } else if ticks_in_phase >= TURN_SETTLE_S * TICK_HZ || state.executive.phase == Phase::Surfacing {
-            let error_cdeg = math::wrap_cdeg(i32::from(heading_cdeg).saturating_sub(state.navigator.heading_cdeg()));
-            state.mu_target_cdeg =
-                config.heading.mu_cdeg(turn, &config.table, &steady, ticks_in_phase, error_cdeg, state.mu_target_cdeg);
-        } else {
-            turn.begin();
-        }
-        let r_px_um = math::round_to_i32(expected.r_px_m * UM_PER_M).saturating_add(trim_um);
-        Targets { r_px_um, mu_cdeg: state.mu_target_cdeg, vbd_ul, pitch_cdeg, heading_cdeg }
+        state.guide.update(&config.mission, &sight);
     }
 
     fn drive(&mut self, measurements: &Measurements, targets: &Targets) -> Commands {
@@ -218,7 +183,8 @@ impl<'a> Autopilot<'a> {
             yo: state.executive.yo,
             abort: state.abort,
             target_pitch_cdeg: saturate(targets.pitch_cdeg),
-            target_heading_cdeg: targets.heading_cdeg,
+            target_heading_cdeg: state.guide.heading_cdeg,
+            aim: state.guide.aim,
             north_mm,
             east_mm,
             learned: state.learned(),
@@ -228,21 +194,14 @@ impl<'a> Autopilot<'a> {
 
 impl<'a> Config<'a> {
     fn new(table: &TrimTable<'a>, mission: &Mission, parameters: &Parameters) -> Self {
-        let steady = |path_angle_cdeg: i16, net_mass_g: i16| Steady {
-            path_angle_rad: f32::from(path_angle_cdeg) * RAD_PER_CDEG,
-            net_mass_kg: f32::from(net_mass_g) * KG_PER_G,
-        };
         let actuators = &table.vehicle().actuators;
         let servo =
             |range: Range, rate_up: i32, rate_down: i32, deadband: i32| Servo { range, rate_up, rate_down, deadband };
         let (r_px_rate, mu_rate) = (actuators.r_px_rate_um_s, actuators.mu_rate_cdeg_s);
-        let dive = steady(mission.dive_path_angle_cdeg, mission.dive_net_mass_g);
-        let climb = steady(mission.climb_path_angle_cdeg, mission.climb_net_mass_g);
-        let pitch_cdeg = |steady: &Steady| math::round_to_i32(steady.pitch_rad(table) / RAD_PER_CDEG);
+        let dive = Side::new(table, &mission.course, mission.dive_path_angle_cdeg, mission.dive_net_mass_g);
+        let climb = Side::new(table, &mission.course, mission.climb_path_angle_cdeg, mission.climb_net_mass_g);
         Self {
-            pitch_rate_rad_s: pitch_rate_rad_s(table, &dive, &climb),
-            dive_pitch_cdeg: pitch_cdeg(&dive),
-            climb_pitch_cdeg: pitch_cdeg(&climb),
+            pitch_rate_rad_s: pitch_rate_rad_s(table, &dive.steady, &climb.steady),
             supervisor: Supervisor::new(mission, parameters),
             pitch: PitchLoop::new(parameters),
             heading: HeadingLoop::new(parameters),
@@ -267,23 +226,14 @@ impl<'a> Config<'a> {
         &self.table.vehicle().actuators
     }
 
-    fn vbd_ul(&self, net_mass_g: i16) -> i32 {
-        let vehicle: &FlightVehicle = self.table.vehicle();
-        vehicle.vbd_ul(net_mass_g)
-    }
-
-    const fn pitch_cdeg(&self, steady: &Steady) -> i32 {
-        if steady.path_angle_rad < 0.0 { self.dive_pitch_cdeg } else { self.climb_pitch_cdeg }
-    }
-
     /// Axial position for the nearly level pitch of a reversal: the glide's own, scaled by the pitches.
-    fn level_off_um(&self, steady: &Steady, trim: PitchTrim) -> i32 {
-        let glide_um = PitchLoop::feed_forward_um(&self.table, steady, 0.0).saturating_add(trim.trim_um);
-        let share = self.apogee_pitch_cdeg as f32 / math::abs(self.pitch_cdeg(steady) as f32);
+    fn level_off_um(&self, side: &Side, trim: PitchTrim) -> i32 {
+        let glide_um = PitchLoop::feed_forward_um(&self.table, &side.steady, 0.0).saturating_add(trim.trim_um);
+        let share = self.apogee_pitch_cdeg as f32 / math::abs(side.pitch_cdeg as f32);
         math::round_to_i32(glide_um as f32 * math::clamp(share, 0.0, 1.0))
     }
 
-    /// The reversal that would end a dive or a climb.
+    /// The reversal that would end a dive or a climb; on the way to a drift it just stops half-way.
     fn reversal(&self, phase: Phase, navigator: &Navigator) -> Plan {
         let actuators = self.actuators();
         let (level_rad, next, pump_ul_s) = if phase == Phase::Dive {
@@ -295,13 +245,44 @@ impl<'a> Config<'a> {
         let kg_s = pump_ul_s as f32 / UL_PER_M3 * self.table.vehicle().density_kg_m3;
         Plan {
             level_pitch_rad: level_rad,
-            next_pitch_rad: self.pitch_cdeg(next) as f32 * RAD_PER_CDEG,
+            next_pitch_rad: next.pitch_cdeg as f32 * RAD_PER_CDEG,
             pitch_rate_rad_s: self.pitch_rate_rad_s,
-            pass_net_mass_kg: net_mass_kg(PASS_SHARE * next.net_mass_kg),
-            next_net_mass_kg: net_mass_kg(next.net_mass_kg),
+            pass_net_mass_kg: net_mass_kg(PASS_SHARE * next.steady.net_mass_kg),
+            next_net_mass_kg: net_mass_kg(next.steady.net_mass_kg),
             net_mass_rate_kg_s: kg_s / navigator.buoyancy().drag_factor(),
         }
     }
+}
+
+impl Side {
+    fn new(table: &TrimTable<'_>, course: &Course, path_angle_cdeg: i16, net_mass_g: i16) -> Self {
+        let steady = Steady {
+            path_angle_rad: f32::from(path_angle_cdeg) * RAD_PER_CDEG,
+            net_mass_kg: f32::from(net_mass_g) * KG_PER_G,
+        };
+        let level = table.look_up(steady.path_angle_rad, steady.net_mass_kg, 0.0);
+        Self {
+            steady,
+            pitch_cdeg: math::round_to_i32(level.pitch_rad / RAD_PER_CDEG),
+            horizontal_speed_m_s: level.speed_m_s * math::cos(steady.path_angle_rad),
+            vbd_ul: table.vehicle().vbd_ul(net_mass_g),
+            spiral_mu_cdeg: match course {
+                Course::Headings(_) | Course::Waypoints(_) => 0,
+                Course::Spiral(mooring) => spiral_mu_cdeg(table, &steady, mooring.turn_rate_cdeg_s),
+            },
+        }
+    }
+}
+
+/// Rotation of the mass that turns at a rate, 0.01°.
+fn spiral_mu_cdeg(table: &TrimTable<'_>, steady: &Steady, turn_rate_cdeg_s: i16) -> i32 {
+    let (rate_rad_s, limit_rad) = (f32::from(turn_rate_cdeg_s) * RAD_PER_CDEG, table.mu_limit_rad());
+    let mut mu_rad = 0.0;
+    // Each call takes two steps from where it starts, and authority depends only a little on the rotation.
+    for _ in 0..2 {
+        mu_rad = table.mu_for_turn(steady.path_angle_rad, steady.net_mass_kg, rate_rad_s, mu_rad, limit_rad);
+    }
+    math::round_to_i32(mu_rad / RAD_PER_CDEG)
 }
 
 /// Speed at which the axial drive pitches, from one glide of the table to the other, rad/s.
@@ -342,23 +323,20 @@ impl State {
         }
     }
 
-    fn is_afloat(&self) -> bool {
+    /// Whether the vehicle flies on its wings: not afloat, and not adrift.
+    fn is_gliding(&self) -> bool {
         match self.executive.phase {
-            Phase::Surface | Phase::Complete => true,
-            Phase::Recovery => self.navigator.depth_m < AFLOAT_DEPTH_M,
-            Phase::Dive | Phase::Apogee | Phase::Climb | Phase::Crest | Phase::Surfacing => false,
+            Phase::Surface | Phase::Complete | Phase::Drift => false,
+            Phase::Recovery => self.navigator.depth_m >= AFLOAT_DEPTH_M,
+            Phase::Dive | Phase::Apogee | Phase::Climb | Phase::Crest | Phase::Surfacing => true,
         }
     }
 
-    /// Heading of the half-yo under way; an inflection already aims at the next one's.
-    fn heading_cdeg(&self, mission: &Mission) -> u16 {
-        let yo = self.executive.yo;
+    /// Whether the glide under way or next is a climb.
+    const fn is_on_the_way_up(&self) -> bool {
         match self.executive.phase {
-            Phase::Surface | Phase::Dive => mission.heading_cdeg(yo, false),
-            Phase::Crest => mission.heading_cdeg(yo.saturating_add(1), false),
-            Phase::Apogee | Phase::Climb | Phase::Surfacing | Phase::Complete | Phase::Recovery => {
-                mission.heading_cdeg(yo, true)
-            }
+            Phase::Surface | Phase::Dive | Phase::Crest => false,
+            Phase::Drift | Phase::Apogee | Phase::Climb | Phase::Surfacing | Phase::Complete | Phase::Recovery => true,
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::{
-    device::{Attitude, GpsFix},
+    device::{Attitude, GpsFix, TICK_HZ},
     table::tests::file,
 };
 use heapless::Vec;
@@ -10,13 +10,16 @@ use heapless::Vec;
 fn mission() -> Mission {
     Mission {
         yos: 1,
+        surfacings: 1,
         dive_to_mm: 100_000,
         climb_to_mm: 5_000,
         dive_path_angle_cdeg: -2_600,
         climb_path_angle_cdeg: 2_600,
         dive_net_mass_g: 250,
         climb_net_mass_g: -250,
-        headings_cdeg: Vec::from_slice(&[9_000]).unwrap(),
+        course: Course::Headings(Vec::from_slice(&[9_000]).unwrap()),
+        drift_time_s: 0,
+        flare_depth_mm: 0,
         surface_time_s: 1,
         altitude_mm: 0,
         abort_depth_mm: 110_000,
@@ -181,4 +184,42 @@ fn what_cannot_be_flown_is_refused() {
     let mistuned = Parameters { heading_period_s: 0, ..Parameters::default() };
     let refused = Autopilot::new(&table, &mission(), &mistuned).unwrap_err();
     assert!(matches!(refused, ConfigurationError::Parameter(row, 0) if row.name == "heading_period_s"));
+}
+
+/// Dives, drifts and climbs as the depth has it; the phases one after another, and the last commands.
+fn phases_of(mission: &Mission, depths_m: &[(usize, i32, i32)]) -> (std::vec::Vec<Phase>, Commands) {
+    let file = file();
+    let table = TrimTable::parse(&file).unwrap();
+    let mut autopilot = Autopilot::new(&table, mission, &Parameters::default()).unwrap();
+    let (mut clock, mut phases, mut last) = (0.., std::vec::Vec::new(), Commands::safe());
+    for (ticks, depth_m, vbd_ul) in depths_m {
+        for tick in clock.by_ref().take(*ticks) {
+            last = autopilot.step(tick, &well(*depth_m, *vbd_ul));
+            phases.push(last.phase);
+        }
+    }
+    phases.dedup();
+    (phases, last)
+}
+
+#[test]
+fn a_drift_is_neither_stuck_nor_adrift_for_ever_and_each_surfacing_but_the_last_dives_again() {
+    use Phase::{Apogee, Climb, Complete, Dive, Drift, Surface, Surfacing};
+    let mission = Mission { surfacings: 2, drift_time_s: 2_000, max_duration_s: 7_200, ..mission() };
+    // Longer at one depth than a glide may be; depth is let settle at the surface after each climb.
+    let dive = [(300, 50, -250_000), (8_400, 100, 0), (300, 60, 250_000), (300, 2, 250_000), (600, 0, 300_000)];
+    let flown = [&[(40, 0, 300_000)][..], &dive[..], &dive[..]].concat();
+    let (phases, last) = phases_of(&mission, &flown);
+    let once = [Surface, Dive, Drift, Apogee, Climb, Surfacing];
+    assert_eq!(phases, [&once[..], &once[..], &[Complete]].concat());
+    assert_eq!((last.yo, last.abort), (2, None));
+}
+
+#[test]
+fn a_drift_can_be_aborted() {
+    let mission = Mission { drift_time_s: 2_000, max_duration_s: 2_000, ..mission() };
+    let (phases, last) = phases_of(&mission, &[(40, 0, 300_000), (300, 50, -250_000), (8_400, 100, 0)]);
+    assert_eq!(phases, [Phase::Surface, Phase::Dive, Phase::Drift, Phase::Recovery]);
+    assert_eq!(last.abort, Some(Abort::MissionTimeout));
+    assert_eq!(last.vbd_rate_ul_s, 42_000, "it pumps");
 }

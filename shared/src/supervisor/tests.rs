@@ -1,6 +1,7 @@
 //! Each row just below and just beyond its limit, and what single samples cannot do.
 
 use super::*;
+use crate::mission::Course;
 use heapless::Vec;
 
 const SOUND: Measurements = Measurements {
@@ -26,13 +27,16 @@ const PARAMETERS: fn() -> Parameters = || Parameters { battery_capacity_c: 100_0
 fn supervisor(parameters: &Parameters) -> Supervisor {
     let mission = Mission {
         yos: 1,
+        surfacings: 1,
         dive_to_mm: 200_000,
         climb_to_mm: 3_000,
         dive_path_angle_cdeg: -2_600,
         climb_path_angle_cdeg: 2_600,
         dive_net_mass_g: 250,
         climb_net_mass_g: -250,
-        headings_cdeg: Vec::new(),
+        course: Course::Headings(Vec::new()),
+        drift_time_s: 0,
+        flare_depth_mm: 0,
         surface_time_s: 0,
         altitude_mm: 0,
         abort_depth_mm: 215_000,

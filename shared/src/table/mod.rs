@@ -18,6 +18,7 @@ pub use file::{Header, TableError, VERSION, write};
 pub use grid::{Axis, Grid};
 
 use crate::{
+    device::RAD_PER_CDEG,
     math,
     vehicle::{FlightVehicle, Range},
 };
@@ -164,6 +165,15 @@ impl TrimTable<'_> {
             turn_rate_rad_s: root * (node.turn_bias + node.turn_factor * math::sin(mu_rad)),
             saturated,
         }
+    }
+
+    /// The largest rotation of the mass, to either side, that the vehicle reaches and both sides of the table cover, rad.
+    #[must_use]
+    pub fn mu_limit_rad(&self) -> f32 {
+        let Range { min, max } = self.vehicle().actuators.mu_cdeg;
+        let vehicle_rad = max.min(min.saturating_neg()) as f32 * RAD_PER_CDEG;
+        let covered_rad = math::clamp(self.header.dive.mu_rad.last, 0.0, self.header.climb.mu_rad.last);
+        math::clamp(vehicle_rad, 0.0, covered_rad)
     }
 
     /// The rotation of the mass that turns at `turn_rate_rad_s`, held to ±`limit_rad` and to what the table covers, rad.

@@ -24,7 +24,8 @@ const CURRENT_M_S: f64 = 3.0;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
-    /// Path of a mission file, or the name of an embedded mission: default, fast-50, slow-50, slow-200, slow-1000
+    /// Path of a mission file, or the name of an embedded mission: default, fast-50, slow-50, slow-200, slow-1000,
+    /// waypoints, mooring, drift
     #[arg(default_value = "default")]
     mission: String,
     /// Path of a vehicle file, or the name of an embedded vehicle (default: the mission's)
@@ -68,13 +69,15 @@ struct Answer<'a> {
 
 pub(super) fn run(args: &Args) -> Result<(), String> {
     check_current(args.current)?;
-    let file = MissionFile::load(&args.mission).map_err(|error| error.to_string())?;
-    let vehicle = super::load_vehicle(args.vehicle.as_ref().unwrap_or(&file.vehicle))?;
-    FlyingVehicle::new(&vehicle)?;
+    let asked = MissionFile::load(&args.mission).map_err(|error| error.to_string())?;
+    let vehicle = super::load_vehicle(args.vehicle.as_ref().unwrap_or(&asked.vehicle))?;
+    let flying = FlyingVehicle::new(&vehicle)?;
     let table_bytes = generate(&vehicle, &Envelope::default())?;
     let table = TrimTable::parse(&table_bytes).map_err(|error| format!("trim table: {}", describe(&error)))?;
+    let file = asked.resolve(&table).map_err(|error| error.to_string())?;
     let waters = args.environments.iter().map(|name| water(name, args.pilot, &vehicle, &table, &file));
     let waters = waters.collect::<Result<Vec<_>, _>>()?;
+    file.check_energy(&flying, &table).map_err(|error| error.to_string())?;
     fs::create_dir_all(&args.out).map_err(|error| format!("{}: {error}", args.out.display()))?;
 
     let seeds = args.seeds;
@@ -142,6 +145,9 @@ fn pilots<'a>(
     let autopilot =
         Autopilot::new(table, &file.mission, parameters).map_err(|error| refusal(file, &error).to_string())?;
     let sense = turn_sense(table, &file.mission);
+    if who != Pilots::Autopilot && !Baseline::knows(&file.mission) {
+        return Err("the baseline flies headings and no drift; --pilot autopilot flies this mission alone".into());
+    }
     let baseline = Baseline::new(table.vehicle(), &file.mission, parameters, sense);
     let both = [
         (Pilots::Autopilot, Flyer::Autopilot(Box::new(autopilot))),

@@ -65,8 +65,8 @@ struct Answer<'a> {
 }
 
 pub(super) fn run(args: &Args) -> Result<(), String> {
-    let file = MissionFile::load(&args.mission).map_err(|error| error.to_string())?;
-    let vehicle = super::load_vehicle(args.vehicle.as_ref().unwrap_or(&file.vehicle))?;
+    let asked = MissionFile::load(&args.mission).map_err(|error| error.to_string())?;
+    let vehicle = super::load_vehicle(args.vehicle.as_ref().unwrap_or(&asked.vehicle))?;
     let faults = FaultsFile::load(&args.faults).map_err(|error| error.to_string())?;
     let flying = faults.on(FlyingVehicle::new(&vehicle)?);
     let ocean = Ocean::load(&args.environment, &vehicle.water).map_err(|error| error.to_string())?;
@@ -76,9 +76,7 @@ pub(super) fn run(args: &Args) -> Result<(), String> {
     };
     let table = TrimTable::parse(&table_bytes).and_then(|table| table.for_vehicle(vehicle.hash()));
     let table = table.map_err(|error| format!("{}: {}", table_name(args), describe(&error)))?;
-    let parameters = briefed(&file.parameters, &file.mission, &ocean, &vehicle.water);
-    let mut autopilot =
-        Autopilot::new(&table, &file.mission, &parameters).map_err(|error| refusal(&file, &error).to_string())?;
+    let (file, mut autopilot) = ready(asked, &flying, &table, &ocean)?;
     fs::create_dir_all(&args.out).map_err(|error| format!("{}: {error}", args.out.display()))?;
 
     let progress = Progress::new(&file.mission);
@@ -142,6 +140,24 @@ fn table_name(args: &Args) -> String {
     args.table.as_ref().map_or_else(|| "trim table".into(), |path| path.display().to_string())
 }
 
+/// The mission as this vehicle flies it, and the autopilot that will, briefed with the chart.
+///
+/// # Errors
+/// One line with what of the mission cannot be flown.
+pub(super) fn ready<'a>(
+    asked: MissionFile,
+    flying: &FlyingVehicle<'_>,
+    table: &TrimTable<'a>,
+    ocean: &Ocean,
+) -> Result<(MissionFile, Autopilot<'a>), String> {
+    let file = asked.resolve(table).map_err(|error| error.to_string())?;
+    let parameters = briefed(&file.parameters, &file.mission, ocean, &flying.vehicle.water);
+    let autopilot =
+        Autopilot::new(table, &file.mission, &parameters).map_err(|error| refusal(&file, &error).to_string())?;
+    file.check_energy(flying, table).map_err(|error| error.to_string())?;
+    Ok((file, autopilot))
+}
+
 /// Why a mission cannot be flown, in the mission file's own names and units.
 pub(super) fn refusal(file: &MissionFile, error: &ConfigurationError) -> FileError {
     let (key, value, min, max) = match error {
@@ -159,7 +175,9 @@ pub(super) fn refusal(file: &MissionFile, error: &ConfigurationError) -> FileErr
 
 /// Key of the mission file for a field of the mission, and how many of the field's units make one of the file's.
 fn in_file(field: &str) -> (String, f64) {
-    for (ours, theirs, scale) in [("_mm", "_m", 1e3), ("_cdeg", "_deg", 1e2), ("_g", "_kg", 1e3)] {
+    for (ours, theirs, scale) in
+        [("_mm", "_m", 1e3), ("_cdeg", "_deg", 1e2), ("_cdeg_s", "_deg_s", 1e2), ("_g", "_kg", 1e3)]
+    {
         if let Some(stem) = field.strip_suffix(ours) {
             return (format!("{stem}{theirs}"), scale);
         }

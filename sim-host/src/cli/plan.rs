@@ -3,9 +3,9 @@
 use std::{fs, io::Write, num::NonZero, path::PathBuf, thread};
 
 use serde::Serialize;
-use shared::{autopilot::Autopilot, table::TrimTable};
+use shared::table::TrimTable;
 
-use super::{campaign::check_current, fly::refusal, progress};
+use super::{campaign::check_current, fly::ready, progress};
 use crate::{
     campaign::Spread,
     flight::FlyingVehicle,
@@ -18,7 +18,8 @@ use crate::{
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
-    /// Path of a mission file, or the name of an embedded mission: default, fast-50, slow-50, slow-200, slow-1000
+    /// Path of a mission file, or the name of an embedded mission: default, fast-50, slow-50, slow-200,
+    /// slow-1000, waypoints, mooring, drift
     mission: String,
     /// Path of a vehicle file, or the name of an embedded vehicle (default: the mission's)
     #[arg(long, value_name = "VEHICLE")]
@@ -52,14 +53,13 @@ struct Answer<'a> {
 
 pub(super) fn run(args: &Args) -> Result<(), String> {
     check_current(args.current)?;
-    let file = MissionFile::load(&args.mission).map_err(|error| error.to_string())?;
-    let vehicle = super::load_vehicle(args.vehicle.as_ref().unwrap_or(&file.vehicle))?;
-    FlyingVehicle::new(&vehicle)?;
+    let asked = MissionFile::load(&args.mission).map_err(|error| error.to_string())?;
+    let vehicle = super::load_vehicle(args.vehicle.as_ref().unwrap_or(&asked.vehicle))?;
+    let flying = FlyingVehicle::new(&vehicle)?;
     let ocean = Ocean::load(&args.environment, &vehicle.water).map_err(|error| error.to_string())?;
     let table_bytes = generate(&vehicle, &Envelope::default())?;
     let table = TrimTable::parse(&table_bytes).map_err(|error| format!("trim table: {}", describe(&error)))?;
-    let autopilot =
-        Autopilot::new(&table, &file.mission, &file.parameters).map_err(|error| refusal(&file, &error).to_string())?;
+    let (file, autopilot) = ready(asked, &flying, &table, &ocean)?;
     fs::create_dir_all(&args.out).map_err(|error| format!("{}: {error}", args.out.display()))?;
 
     let planned = Planned {

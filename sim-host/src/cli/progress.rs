@@ -15,7 +15,7 @@ pub(super) struct Progress {
 
 impl Progress {
     pub(super) fn new(mission: &Mission) -> Self {
-        let bar = ProgressBar::new(u64::from(mission.yos));
+        let bar = ProgressBar::new(u64::from(mission.total_yos()));
         let template = "{spinner} {msg} [{bar:30}] yo {pos}/{len}";
         bar.set_style(ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar()));
         Self { bar }

@@ -202,6 +202,12 @@ fn is_over(phase: Phase) -> Option<Outcome> {
     match phase {
         Phase::Complete => Some(Outcome::Completed),
         Phase::Recovery => Some(Outcome::Aborted),
-        Phase::Surface | Phase::Dive | Phase::Apogee | Phase::Climb | Phase::Crest | Phase::Surfacing => None,
+        Phase::Surface
+        | Phase::Dive
+        | Phase::Drift
+        | Phase::Apogee
+        | Phase::Climb
+        | Phase::Crest
+        | Phase::Surfacing => None,
     }
 }

@@ -6,6 +6,7 @@
 
 use shared::{
     device::{Attitude, GpsFix, MM_PER_M},
+    guidance::Aim,
     mission::Phase,
 };
 
@@ -56,7 +57,7 @@ pub const COLUMNS: &[Column] = &[
     integer("tick", "ticks since the start", |s| Some(s.tick.into())),
     real("time_s", "time since the start", |_, s| Some(s.time_s())),
     // OG1
-    integer("PHASE", "1 ascent, 2 descent, 3 surfacing, 5 inflexion", |s| Some(og1_phase(s))),
+    integer("PHASE", "1 ascent, 2 descent, 3 surfacing, 4 parking, 5 inflexion", |s| Some(og1_phase(s))),
     integer("PROFILE_NUMBER", "descents and ascents, counted from 1; 0 before the first", |s| Some(profile_number(s))),
     real("PRES", "measured pressure above the air's, dbar", |_, s| Some(pressure_pa(s)? / PA_PER_DBAR)),
     real("DEPTH", "depth from the measured pressure, m", |r, s| {
@@ -101,6 +102,7 @@ pub const COLUMNS: &[Column] = &[
     text("abort", "why the mission ended early", |s| Some(format!("{:?}", s.commands.abort?))),
     integer("target_pitch_cdeg", "pitch aimed at", |s| Some(s.commands.target_pitch_cdeg.into())),
     integer("target_heading_cdeg", "heading aimed at", |s| Some(s.commands.target_heading_cdeg.into())),
+    text("aim", "what that heading is for", |s| Some(aim_word(s.commands.aim))),
     integer("north_mm", "dead-reckoned north of the start", |s| Some(s.commands.north_mm.into())),
     integer("east_mm", "dead-reckoned east of the start", |s| Some(s.commands.east_mm.into())),
     integer("weight_g", "learned weight beyond the buoyancy device's", |s| Some(s.commands.learned.weight_g.into())),
@@ -187,17 +189,29 @@ fn og1_phase(sample: &Sample) -> i64 {
         Phase::Climb | Phase::Surfacing => 1,
         Phase::Dive => 2,
         Phase::Surface | Phase::Complete => 3,
+        Phase::Drift => 4,
         Phase::Apogee | Phase::Crest => 5,
         Phase::Recovery if sample.truth.position_m.z > AFLOAT_M => 1,
         Phase::Recovery => 3,
     }
 }
 
+/// The waypoint is numbered from 1; a `!` says that the current cannot be stemmed.
+fn aim_word(aim: Aim) -> String {
+    match aim {
+        Aim::Heading => "heading".into(),
+        Aim::Waypoint(number) => format!("waypoint {number}"),
+        Aim::UnstemmedWaypoint(number) => format!("waypoint {number}!"),
+        Aim::Spiral => "spiral".into(),
+        Aim::Station => "station".into(),
+        Aim::UnstemmedStation => "station!".into(),
+    }
+}
+
 fn profile_number(sample: &Sample) -> i64 {
     let ascents = 2 * i64::from(sample.commands.yo);
     match sample.commands.phase {
-        Phase::Surface => 0,
-        Phase::Dive | Phase::Apogee => ascents - 1,
-        Phase::Climb | Phase::Crest | Phase::Surfacing | Phase::Complete | Phase::Recovery => ascents,
+        Phase::Dive | Phase::Drift | Phase::Apogee => ascents - 1,
+        Phase::Surface | Phase::Climb | Phase::Crest | Phase::Surfacing | Phase::Complete | Phase::Recovery => ascents,
     }
 }

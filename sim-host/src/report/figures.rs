@@ -43,7 +43,7 @@ pub struct Moves {
 #[must_use]
 pub fn legs(record: &Record) -> Vec<Leg> {
     let leg_of = |sample: &Sample| match sample.commands.phase {
-        Phase::Dive | Phase::Apogee => Some((sample.commands.yo, false)),
+        Phase::Dive | Phase::Drift | Phase::Apogee => Some((sample.commands.yo, false)),
         Phase::Climb | Phase::Crest | Phase::Surfacing => Some((sample.commands.yo, true)),
         Phase::Surface | Phase::Complete | Phase::Recovery => None,
     };

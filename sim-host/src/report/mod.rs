@@ -8,7 +8,7 @@ mod traces;
 mod track;
 
 use maud::{Markup, PreEscaped, html};
-use shared::mission::Mission;
+use shared::mission::{Course, Mission};
 
 use crate::{
     chart::plot::{self, BELOW_PX, LEFT_PX, Plot},
@@ -81,17 +81,37 @@ fn mission_line(mission: &Mission) -> String {
         let (path_deg, net_mass_kg) = (f64::from(path_cdeg) / 100.0, f64::from(net_mass_g) / 1e3);
         format!("{name} {path_deg:+}° at {net_mass_kg:+} kg").replace('-', "−")
     };
-    let headings: Vec<_> = mission.headings_cdeg.iter().map(|cdeg| format!("{}°", f64::from(*cdeg) / 100.0)).collect();
-    format!(
-        "{} yo{} between {} and {} m: {}, {}, headings {}",
-        mission.yos,
-        if mission.yos == 1 { "" } else { "s" },
+    let mut line = format!(
+        "{} yo{} between {} and {} m: {}, {}, {}",
+        mission.total_yos(),
+        if mission.total_yos() == 1 { "" } else { "s" },
         f64::from(mission.climb_to_mm) / 1e3,
         f64::from(mission.dive_to_mm) / 1e3,
         leg("dives", mission.dive_path_angle_cdeg, mission.dive_net_mass_g),
         leg("climbs", mission.climb_path_angle_cdeg, mission.climb_net_mass_g),
-        headings.join(", ")
-    )
+        course_words(&mission.course)
+    );
+    if mission.surfacings > 1 {
+        line += &format!(", up to {} surfacings", mission.surfacings);
+    }
+    if mission.drift_time_s > 0 {
+        line += &format!(", {} min adrift at depth", f64::from(mission.drift_time_s) / 60.0);
+    }
+    line
+}
+
+fn course_words(course: &Course) -> String {
+    match course {
+        Course::Headings(headings) => {
+            let headings: Vec<_> = headings.iter().map(|cdeg| format!("{}°", f64::from(*cdeg) / 100.0)).collect();
+            format!("headings {}", headings.join(", "))
+        }
+        Course::Waypoints(route) => format!("{} waypoints", route.places.len()),
+        Course::Spiral(mooring) => {
+            let rate_deg_s = f64::from(mooring.turn_rate_cdeg_s) / 100.0;
+            format!("spirals at {rate_deg_s:+} °/s within {} m", f64::from(mooring.radius_mm) / 1e3).replace('-', "−")
+        }
+    }
 }
 
 fn over_time(flight: &Flight<'_>) -> Markup {
@@ -110,10 +130,11 @@ fn over_time(flight: &Flight<'_>) -> Markup {
 }
 
 /// Key of the bands behind the plots.
-const PHASES: [(&str, &str); 5] = [
+const PHASES: [(&str, &str); 6] = [
     ("surface", "at the surface"),
     ("dive", "dive"),
     ("turn", "apogee and crest"),
+    ("drift", "drift"),
     ("climb", "climb"),
     ("recovery", "recovery"),
 ];

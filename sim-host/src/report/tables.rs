@@ -49,7 +49,7 @@ pub(super) fn legs(flight: &Flight<'_>) -> Markup {
 
 fn leg_row(flight: &Flight<'_>, leg: &Leg) -> Markup {
     let mission = flight.mission;
-    let last_climb = leg.climbing && leg.yo == mission.yos;
+    let last_climb = leg.climbing && mission.surfaces_after(leg.yo);
     let target_mm = if leg.climbing { mission.climb_to_mm } else { mission.dive_to_mm };
     let off_m = leg.turning_depth_m - f64::from(target_mm) / 1e3;
     html! {
@@ -112,7 +112,7 @@ pub(super) fn navigation(flight: &Flight<'_>) -> Markup {
     let place = |place: &Option<NorthEast>| {
         optional(*place, |place| format!("{} m north, {} m east", signed(place.north_m, 1), signed(place.east_m, 1)))
     };
-    let yo = flight.mission.yos;
+    let yo = flight.record.samples.last().map_or(0, |sample| sample.commands.yo);
     let rms = figures::yo_heading_rms_deg(flight.record, yo);
     let rows = [
         ("surfaced, as expected", place(&summary.surfacing.predicted)),

@@ -233,6 +233,7 @@ const fn phase_class(phase: Phase) -> &'static str {
         Phase::Surface | Phase::Complete => "surface",
         Phase::Dive => "dive",
         Phase::Apogee | Phase::Crest => "turn",
+        Phase::Drift => "drift",
         Phase::Climb | Phase::Surfacing => "climb",
         Phase::Recovery => "recovery",
     }

@@ -167,6 +167,12 @@ impl Section<'_> {
         if self.has(key) { self.numbers(key, rule) } else { default }
     }
 
+    /// A list of `N` numbers that may be left out, without a default.
+    pub fn optional_numbers<const N: usize>(&mut self, key: &'static str, rule: Rule) -> Option<[f64; N]> {
+        self.describe(key, false, || schema::list(rule.schema(), N, N));
+        self.has(key).then(|| self.numbers(key, rule))
+    }
+
     /// A list of 1 to `longest` numbers.
     pub fn list(&mut self, key: &'static str, rule: Rule, longest: usize) -> Vec<f64> {
         self.describe(key, true, || schema::list(rule.schema(), 1, longest));
@@ -175,6 +181,12 @@ impl Section<'_> {
             list.filter(|list| (1..=longest).contains(&list.len()) && list.iter().all(|item| rule.holds(*item)))
         };
         self.required(key, &format!("1 to {longest} numbers, each {rule}"), accept).unwrap_or_default()
+    }
+
+    /// A list of 1 to `longest` numbers that may be left out.
+    pub fn optional_list(&mut self, key: &'static str, rule: Rule, longest: usize) -> Option<Vec<f64>> {
+        self.describe(key, false, || schema::list(rule.schema(), 1, longest));
+        self.has(key).then(|| self.list(key, rule, longest))
     }
 
     /// `[min, max]` with min below max.

@@ -85,9 +85,10 @@ pub const METRICS: &[Metric] = &[
     metric("energy_j_per_km", "energy of all together", |s| per_km(s, s.summary.energy_j.total())),
     metric(
         "surfacing_error_percent",
-        "where it came up against where it expected to, of its way over ground",
+        "where it came up last against where it expected to, of its way over ground since the fix before that dive",
         surfacing_error_percent,
     ),
+    metric("surface_drift_m", "way over ground at the surface before its last dive", |s| Some(surface_drift_m(s))),
 ];
 
 /// Depth error of each apogee, % of the target depth, too deep positive.
@@ -176,10 +177,19 @@ fn moves(seen: &Seen<'_>, rate: impl Fn(&Sample) -> i32) -> f64 {
     figures::moves(seen.record, rate).count.into()
 }
 
-/// Horizontal way over ground from the first dive to the surface, m.
+/// Horizontal way over ground on all dives, m.
 fn way_m(seen: &Seen<'_>) -> f64 {
-    let under_way = |sample: &Sample| !matches!(sample.commands.phase, Phase::Surface | Phase::Complete);
-    let steps = seen.record.samples.array_windows().filter(|[from, _]| under_way(from));
+    way_over_ground_m(&seen.record.samples, under_way)
+}
+
+/// From the beginning of a dive until the vehicle is afloat.
+fn under_way(sample: &Sample) -> bool {
+    !matches!(sample.commands.phase, Phase::Surface | Phase::Complete)
+}
+
+/// Horizontal way over ground in the steps that start from such samples, m.
+fn way_over_ground_m(samples: &[Sample], counts: impl Fn(&Sample) -> bool) -> f64 {
+    let steps = samples.array_windows().filter(|[from, _]| counts(from));
     steps.map(|[from, to]| (to.truth.position_m - from.truth.position_m).xy().norm()).sum()
 }
 
@@ -188,10 +198,23 @@ fn per_km(seen: &Seen<'_>, value: f64) -> Option<f64> {
     (way_m > 0.0).then(|| 1e3 * value / way_m)
 }
 
+/// The flight before its last dive, and from there on.
+fn last_dive<'a>(seen: &Seen<'a>) -> (&'a [Sample], &'a [Sample]) {
+    let samples = &seen.record.samples;
+    let afloat = samples.iter().rposition(|sample| sample.commands.phase == Phase::Surface);
+    samples.split_at(afloat.map_or(0, |last| last + 1))
+}
+
 fn surfacing_error_percent(seen: &Seen<'_>) -> Option<f64> {
     let surfacing = seen.summary.surfacing;
     let (predicted, actual) = (surfacing.predicted?, surfacing.actual?);
     let miss_m = (predicted.north_m - actual.north_m).hypot(predicted.east_m - actual.east_m);
-    let way_m = way_m(seen);
+    let way_m = way_over_ground_m(last_dive(seen).1, under_way);
     (way_m > 0.0).then(|| 100.0 * miss_m / way_m)
+}
+
+fn surface_drift_m(seen: &Seen<'_>) -> f64 {
+    let (before, _) = last_dive(seen);
+    let came_up = before.iter().rposition(under_way).map_or(0, |last| last + 1);
+    way_over_ground_m(before.get(came_up..).unwrap_or_default(), |_| true)
 }

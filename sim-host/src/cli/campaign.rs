@@ -25,7 +25,7 @@ const CURRENT_M_S: f64 = 3.0;
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
     /// Path of a mission file, or the name of an embedded mission: default, fast-50, slow-50, slow-200, slow-1000,
-    /// waypoints, mooring, drift
+    /// legs, zigzag, waypoints, mooring, drift
     #[arg(default_value = "default")]
     mission: String,
     /// Path of a vehicle file, or the name of an embedded vehicle (default: the mission's)

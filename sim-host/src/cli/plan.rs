@@ -19,7 +19,7 @@ use crate::{
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
     /// Path of a mission file, or the name of an embedded mission: default, fast-50, slow-50, slow-200,
-    /// slow-1000, waypoints, mooring, drift
+    /// slow-1000, legs, zigzag, waypoints, mooring, drift
     mission: String,
     /// Path of a vehicle file, or the name of an embedded vehicle (default: the mission's)
     #[arg(long, value_name = "VEHICLE")]

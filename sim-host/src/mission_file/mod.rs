@@ -41,6 +41,8 @@ const EMBEDDED: &[(&str, &str, &str)] = &[
     ("slow-50", "missions/slow-50.toml", include_str!("../../missions/slow-50.toml")),
     ("slow-200", "missions/slow-200.toml", include_str!("../../missions/slow-200.toml")),
     ("slow-1000", "missions/slow-1000.toml", include_str!("../../missions/slow-1000.toml")),
+    ("legs", "missions/legs.toml", include_str!("../../missions/legs.toml")),
+    ("zigzag", "missions/zigzag.toml", include_str!("../../missions/zigzag.toml")),
     ("waypoints", "missions/waypoints.toml", include_str!("../../missions/waypoints.toml")),
     ("mooring", "missions/mooring.toml", include_str!("../../missions/mooring.toml")),
     ("drift", "missions/drift.toml", include_str!("../../missions/drift.toml")),

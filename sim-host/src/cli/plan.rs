@@ -3,14 +3,15 @@
 use std::{fs, io::Write, num::NonZero, path::PathBuf, thread};
 
 use serde::Serialize;
-use shared::{autopilot::Autopilot, table::TrimTable};
+use shared::table::TrimTable;
 
-use super::{campaign::check_current, fly::refusal, progress};
+use super::{campaign::check_current, progress};
 use crate::{
     campaign::Spread,
     flight::FlyingVehicle,
     mission_file::MissionFile,
     ocean::Ocean,
+    pilot::autopilot,
     plan::{self, Limit, Plan, Planned, Surfacing},
     table::{Envelope, describe, generate},
     whole_file,
@@ -58,8 +59,7 @@ pub(super) fn run(args: &Args) -> Result<(), String> {
     let ocean = Ocean::load(&args.environment, &vehicle.water).map_err(|error| error.to_string())?;
     let table_bytes = generate(&vehicle, &Envelope::default())?;
     let table = TrimTable::parse(&table_bytes).map_err(|error| format!("trim table: {}", describe(&error)))?;
-    let autopilot =
-        Autopilot::new(&table, &file.mission, &file.parameters).map_err(|error| refusal(&file, &error).to_string())?;
+    let autopilot = autopilot(&table, &file, &file.parameters)?;
     fs::create_dir_all(&args.out).map_err(|error| format!("{}: {error}", args.out.display()))?;
 
     let planned = Planned {

@@ -73,6 +73,7 @@ pub mod plan;
 pub mod plant;
 pub mod real;
 pub mod record;
+pub mod reduced_error;
 pub mod report;
 pub mod sensitivity;
 pub mod table;

@@ -52,6 +52,7 @@ pub mod chart;
 pub mod cli;
 pub mod coefficients;
 pub mod design;
+mod document;
 pub mod draw;
 pub mod eval;
 pub mod faults_file;

@@ -130,15 +130,7 @@ fn the_embedded_missions_fly_with_enough_margin() {
         let vehicle = Vehicle::load(&file.vehicle).unwrap();
         let bytes = generate(&vehicle, &Envelope::default()).unwrap();
         let table = TrimTable::parse(&bytes).unwrap();
-        let glides = [
-            (file.mission.dive_path_angle_cdeg, file.mission.dive_net_mass_g),
-            (file.mission.climb_path_angle_cdeg, file.mission.climb_net_mass_g),
-        ];
-        for (path_angle_cdeg, net_mass_g) in glides {
-            let steady = Steady {
-                path_angle_rad: f32::from(path_angle_cdeg) * RAD_PER_CDEG,
-                net_mass_kg: f32::from(net_mass_g) / 1e3,
-            };
+        for steady in margins::glides(&file.mission) {
             let node = margins::at(&vehicle, &table, &file.parameters, steady).unwrap();
             for margins in [node.pitch, node.heading] {
                 let enough = margins.gain_margin.is_none_or(|factor| factor >= ENOUGH_GAIN);

@@ -4,24 +4,19 @@ mod common;
 
 use common::Interval;
 use shared::{
-    autopilot::Autopilot,
-    mission::{Course, Phase},
+    device::TICK_S,
     number::{Fixed, Number},
     reduced::{Drive, Model, Motion, limits},
-    table::TrimTable,
     vehicle::GlideConstants,
 };
 use sim_host::{
-    flight::{FlyingVehicle, fly},
     mission_file::MissionFile,
-    ocean::Ocean,
-    plant::{Plant, State, euler_from_quaternion},
-    table::{Envelope, flight_vehicle, generate},
+    plant::Plant,
+    reduced_error::{self, BOUND, error, submerged},
+    table::{Envelope, flight_vehicle},
     trim::{Condition, Scale, glide},
     vehicle::Vehicle,
 };
-
-const TICK_S: f32 = 0.25;
 
 fn slocum() -> Vehicle {
     Vehicle::load("slocum-paper").unwrap()
@@ -30,94 +25,6 @@ fn slocum() -> Vehicle {
 fn model<N: Number>(vehicle: &Vehicle) -> Model<N> {
     let flying = flight_vehicle(vehicle, &Envelope::default()).unwrap();
     Model::new(&flying.glide, flying.gravity_m_s2, TICK_S)
-}
-
-/// One tick of a flight as the truth has it.
-#[derive(Clone, Copy)]
-struct Truth {
-    phase: Phase,
-    state: State<f64>,
-    density_kg_m3: f64,
-    net_mass_kg: f64,
-    reference_density_kg_m3: f64,
-}
-
-impl Truth {
-    fn drive<N: Number>(&self) -> Drive<N> {
-        let euler = euler_from_quaternion(&self.state.quaternion);
-        let number = |value: f64| N::new(value as f32);
-        Drive {
-            pitch_rad: number(euler.y),
-            roll_rad: number(euler.x),
-            pitch_rate_rad_s: number(self.state.rate_rad_s.y),
-            r_px_m: number(self.state.r_px_m),
-            net_mass_kg: number(self.net_mass_kg),
-            density_ratio: number(self.density_kg_m3 / self.reference_density_kg_m3),
-        }
-    }
-
-    fn speed_m_s(&self) -> f64 {
-        self.state.velocity_m_s.norm()
-    }
-}
-
-/// Every tick of a mission under water.
-fn flown(vehicle: &Vehicle, ocean: &Ocean, change: impl FnOnce(&mut MissionFile)) -> Vec<Truth> {
-    let mut file = MissionFile::load("default").unwrap();
-    change(&mut file);
-    let bytes = generate(vehicle, &Envelope::default()).unwrap();
-    let table = TrimTable::parse(&bytes).unwrap();
-    let mut autopilot = Autopilot::new(&table, &file.mission, &file.parameters).unwrap();
-    let flying = FlyingVehicle::new(vehicle).unwrap();
-    let mut truth = Vec::new();
-    fly(&flying, ocean, &file.mission, &file.start, 1, &mut autopilot, &mut |tick| {
-        let density_kg_m3 = tick.water.around.density_kg_m3;
-        truth.push(Truth {
-            phase: tick.commands.phase,
-            state: *tick.state,
-            density_kg_m3,
-            net_mass_kg: vehicle.mass_kg() - density_kg_m3 * tick.state.displaced_volume_m3,
-            reference_density_kg_m3: vehicle.water.density_kg_m3,
-        });
-    })
-    .unwrap();
-    truth.retain(|t| t.state.position_m.z > 3.0);
-    truth
-}
-
-/// Largest error of speed, m/s, and of depth, m, over a stretch of a flight that the model enters at the true velocity.
-fn errors<N: Number>(vehicle: &Vehicle, stretch: &[Truth]) -> (f64, f64) {
-    let model = model::<N>(vehicle);
-    let first = stretch[0].state.velocity_m_s;
-    let mut motion = Motion::new(N::new(first.x as f32), N::new(first.z as f32));
-    let mut depth_m = stretch[0].state.position_m.z;
-    let mut before_m_s = 0.0;
-    let (mut of_speed, mut of_depth) = (0.0_f64, 0.0_f64);
-    for (i, truth) in stretch.iter().enumerate() {
-        let drive = truth.drive::<N>();
-        if i > 0 {
-            motion = model.step(&motion, &drive);
-        }
-        let sink_m_s = f64::from(motion.sink_rate_m_s(drive.pitch_rad, drive.roll_rad).value());
-        if i > 0 {
-            depth_m += 0.5 * f64::from(TICK_S) * (before_m_s + sink_m_s);
-        }
-        before_m_s = sink_m_s;
-        of_speed = of_speed.max((f64::from(motion.speed_m_s().value()) - truth.speed_m_s()).abs());
-        of_depth = of_depth.max((depth_m - truth.state.position_m.z).abs());
-    }
-    (of_speed, of_depth)
-}
-
-/// From 20 s before an inflection to 60 s after it.
-fn inflections(flight: &[Truth]) -> Vec<&[Truth]> {
-    let begins =
-        |phase: Phase| flight.windows(2).position(move |pair| pair[0].phase != phase && pair[1].phase == phase);
-    let ends = |phase: Phase| flight.windows(2).rposition(move |pair| pair[0].phase == phase && pair[1].phase != phase);
-    [Phase::Apogee, Phase::Crest]
-        .into_iter()
-        .filter_map(|phase| Some(&flight[begins(phase)? - 80..ends(phase)? + 240]))
-        .collect()
 }
 
 /// Net mass, slope: the corners and the middle of the envelope.
@@ -157,54 +64,27 @@ fn settled<N: Number>(vehicle: &Vehicle, exact: &sim_host::trim::Glide) -> f64 {
     (f64::from(motion.speed_m_s().value()) - exact.speed_m_s).abs()
 }
 
-fn check_inflections(name: &str, vehicle: &Vehicle, ocean: &Ocean, change: impl FnOnce(&mut MissionFile)) {
-    let flight = flown(vehicle, ocean, change);
-    let inflections = inflections(&flight);
-    assert_eq!(inflections.len(), 2);
-    for stretch in inflections {
-        for (kind, (of_speed, of_depth)) in
-            [("f32", errors::<f32>(vehicle, stretch)), ("fixed", errors::<Fixed>(vehicle, stretch))]
-        {
-            println!("{name}, {kind}: speed {:.2} mm/s, depth {:.3} m", 1e3 * of_speed, of_depth);
-            assert!(of_speed <= 1e-4 && of_depth <= 0.01, "{name}, {kind}: {of_speed} m/s, {of_depth} m");
+/// Two yos, hence two apogees and a crest, with each pump.
+#[test]
+fn inflections_with_a_fast_and_a_slow_pump_are_followed() {
+    let inflections = reduced_error::inflections().unwrap();
+    assert_eq!(inflections.len(), 2 * 3);
+    for inflection in inflections {
+        println!("{inflection:?}");
+        for error in [inflection.float, inflection.fixed] {
+            assert!(error.speed_m_s <= BOUND.speed_m_s && error.depth_m <= BOUND.depth_m, "{inflection:?}");
         }
     }
-}
-
-/// Straight ahead, so that the errors are those of the inflection.
-fn straight(file: &mut MissionFile) {
-    file.mission.course = Course::Headings([0].into_iter().collect());
-}
-
-#[test]
-fn an_inflection_with_a_fast_pump_is_followed() {
-    let vehicle = slocum();
-    check_inflections("42 cc/s", &vehicle, &Ocean::still(&vehicle.water), straight);
-}
-
-/// A deep glider's engine: 1.2 cc/s up, 8 cc/s down.
-#[test]
-fn an_inflection_with_a_slow_pump_is_followed() {
-    let mut vehicle = slocum();
-    let buoyancy = vehicle.buoyancy.as_mut().unwrap();
-    (buoyancy.pump_rate_m3_s, buoyancy.bleed_rate_m3_s) = (1.2e-6, 8e-6);
-    check_inflections("1.2 and 8 cc/s", &vehicle, &Ocean::still(&vehicle.water), |file| {
-        straight(file);
-        file.mission.abort_depth_mm = 300_000;
-        file.mission.max_duration_s = 20_000;
-    });
 }
 
 /// In turns the side velocity is missing.
 #[test]
 fn a_whole_mission_with_turns_stays_close() {
     let vehicle = slocum();
-    let flight = flown(&vehicle, &Ocean::still(&vehicle.water), |_| {});
-    for (kind, (of_speed, of_depth)) in
-        [("f32", errors::<f32>(&vehicle, &flight)), ("fixed", errors::<Fixed>(&vehicle, &flight))]
-    {
-        println!("mission, {kind}: speed {:.1} mm/s, depth {:.2} m", 1e3 * of_speed, of_depth);
-        assert!(of_speed < 0.005 && of_depth < 0.2);
+    let flight = submerged(&vehicle, &MissionFile::load("default").unwrap()).unwrap();
+    for error in [error::<f32>(&vehicle, &flight).unwrap(), error::<Fixed>(&vehicle, &flight).unwrap()] {
+        println!("mission: {error:?}");
+        assert!(error.speed_m_s < 0.005 && error.depth_m < 0.2, "{error:?}");
     }
 }
 

@@ -237,4 +237,4 @@ impl<N: Number> Model<N> {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

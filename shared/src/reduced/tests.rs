@@ -4,7 +4,7 @@ use super::*;
 use crate::number::Fixed;
 
 /// The paper's Slocum: trim of section 5.1 is 0.77 m/s at −35° with 0.2129 kg, α 1.2247°.
-const SLOCUM: GlideConstants = GlideConstants {
+pub(crate) const SLOCUM: GlideConstants = GlideConstants {
     mass_kg: 50.0,
     mass_u_kg: 55.0,
     mass_w_kg: 120.0,

@@ -1,7 +1,7 @@
 //! A made-up vehicle's table: written, read, looked up, refused.
 
 use super::*;
-use crate::vehicle::{Actuators, GlideConstants};
+use crate::{reduced::tests::SLOCUM, vehicle::Actuators};
 use std::vec::Vec;
 
 fn vehicle() -> FlightVehicle {
@@ -20,20 +20,7 @@ fn vehicle() -> FlightVehicle {
             bleed_rate_ul_s: 42_000,
         },
         working_depth_mm: 200_000,
-        glide: GlideConstants {
-            mass_kg: 50.0,
-            mass_u_kg: 55.0,
-            mass_w_kg: 120.0,
-            drag_zero: 2.0,
-            drag_induced: 45.0 / (135.0 * 135.0),
-            lift_zero: 0.0,
-            lift_alpha: 135.0,
-            lift_rate: 0.0,
-            surge_coupling_kg_m: 0.0,
-            heave_coupling_kg_m: 0.0,
-            moving_mass_kg: 9.0,
-            turn_length_m: [3.0, 1.0],
-        },
+        glide: SLOCUM,
     }
 }
 

@@ -4,6 +4,7 @@
 //! its instruments. Every pilot flies the same seeds in every water, so that they can be compared flight by flight. A flight
 //! depends on its seed alone, not on how many fly at a time.
 
+mod crew;
 mod draw;
 mod metrics;
 mod page;
@@ -12,8 +13,7 @@ mod table;
 
 use std::num::NonZero;
 
-use shared::autopilot::Autopilot;
-
+pub use crew::{Flyer, Pilots, Water};
 pub use draw::{Drawn, FACTORS};
 pub use metrics::{METRICS, Metric, Seen};
 pub use page::html;
@@ -21,7 +21,6 @@ pub use statistics::{Spread, Tally, tallies};
 pub use table::{text, write_csv};
 
 use crate::{
-    baseline::Baseline,
     flight::{FlyingVehicle, Outcome, SensorErrors, Summary, Tick, fly},
     mission_file::MissionFile,
     ocean::Ocean,
@@ -47,45 +46,6 @@ pub struct Campaign<'a> {
     pub seeds: u64,
     /// Speed of a steady current from an unknown direction, m/s.
     pub current_m_s: f64,
-}
-
-/// One water.
-#[derive(Clone, Debug)]
-pub struct Water<'a> {
-    /// Its name.
-    pub name: String,
-    /// What it is.
-    pub ocean: Ocean,
-    /// Who flies there; they know the vehicle of the file, and what a chart tells of the water.
-    pub pilots: Vec<Flyer<'a>>,
-}
-
-/// Who flies.
-#[derive(Clone, Debug)]
-pub enum Flyer<'a> {
-    /// The autopilot.
-    Autopilot(Box<Autopilot<'a>>),
-    /// The classical controller.
-    Baseline(Box<Baseline>),
-}
-
-impl<'a> Flyer<'a> {
-    /// As it is called in tables and files.
-    #[must_use]
-    pub const fn name(&self) -> &'static str {
-        match self {
-            Self::Autopilot(_) => "autopilot",
-            Self::Baseline(_) => "baseline",
-        }
-    }
-
-    /// One that has not flown yet.
-    fn fresh(&self) -> Box<dyn Pilot + 'a> {
-        match self {
-            Self::Autopilot(autopilot) => autopilot.clone(),
-            Self::Baseline(baseline) => baseline.clone(),
-        }
-    }
 }
 
 /// What one flight came to.

@@ -2,18 +2,14 @@
 
 use std::{fs, io::Write, num::NonZero, path::PathBuf, thread};
 
-use clap::ValueEnum;
 use serde::Serialize;
-use shared::{autopilot::Autopilot, device::RAD_PER_CDEG, mission::Mission, parameters::Parameters, table::TrimTable};
+use shared::table::TrimTable;
 
-use super::{fly::refusal, progress};
+use super::progress;
 use crate::{
-    baseline::{Baseline, Turn, TurnSense},
-    campaign::{self, Campaign, Flyer, Tally, Water},
+    campaign::{self, Campaign, Pilots, Tally, Water},
     flight::FlyingVehicle,
     mission_file::MissionFile,
-    ocean::Ocean,
-    pilot::briefed,
     table::{Envelope, describe, generate},
     vehicle::Vehicle,
     whole_file,
@@ -51,13 +47,6 @@ pub(super) struct Args {
     json: bool,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Pilots {
-    Autopilot,
-    Baseline,
-    Both,
-}
-
 #[derive(Serialize)]
 struct Answer<'a> {
     mission: &'a str,
@@ -75,7 +64,7 @@ pub(super) fn run(args: &Args) -> Result<(), String> {
     let table_bytes = generate(&vehicle, &Envelope::default())?;
     let table = TrimTable::parse(&table_bytes).map_err(|error| format!("trim table: {}", describe(&error)))?;
     let file = asked.resolve(&table).map_err(|error| error.to_string())?;
-    let waters = args.environments.iter().map(|name| water(name, args.pilot, &vehicle, &table, &file));
+    let waters = args.environments.iter().map(|name| Water::new(name, args.pilot, &vehicle, &table, &file));
     let waters = waters.collect::<Result<Vec<_>, _>>()?;
     file.check_energy(&flying, &table).map_err(|error| error.to_string())?;
     fs::create_dir_all(&args.out).map_err(|error| format!("{}: {error}", args.out.display()))?;
@@ -111,61 +100,4 @@ fn title(args: &Args, vehicle: &Vehicle) -> String {
     let current =
         if args.current > 0.0 { format!(", an unknown current of {} m/s", args.current) } else { String::new() };
     format!("{}, {}, seeds 1 to {}{current}", args.mission, vehicle.name, args.seeds)
-}
-
-/// A water by its name, and who flies there; one that is too shallow for the mission would say nothing about them.
-fn water<'a>(
-    name: &str,
-    who: Pilots,
-    vehicle: &Vehicle,
-    table: &TrimTable<'a>,
-    file: &MissionFile,
-) -> Result<Water<'a>, String> {
-    let mission = &file.mission;
-    let ocean = Ocean::load(name, &vehicle.water).map_err(|error| error.to_string())?;
-    let dive_to_m = f64::from(mission.dive_to_mm) / 1e3;
-    match ocean.floor_depth_m(0.0, 0.0) {
-        Some(floor_m) if floor_m <= dive_to_m => {
-            Err(format!("{name}: the sea floor lies at {floor_m} m, and the mission dives to {dive_to_m} m"))
-        }
-        Some(_) | None => {
-            let parameters = briefed(&file.parameters, mission, &ocean, &vehicle.water);
-            Ok(Water { name: name.into(), ocean, pilots: pilots(who, table, file, &parameters)? })
-        }
-    }
-}
-
-fn pilots<'a>(
-    who: Pilots,
-    table: &TrimTable<'a>,
-    file: &MissionFile,
-    parameters: &Parameters,
-) -> Result<Vec<Flyer<'a>>, String> {
-    // Also checks the mission, which the classical controller takes as it is.
-    let autopilot =
-        Autopilot::new(table, &file.mission, parameters).map_err(|error| refusal(file, &error).to_string())?;
-    let sense = turn_sense(table, &file.mission);
-    if who != Pilots::Autopilot && !Baseline::knows(&file.mission) {
-        return Err("the baseline flies headings and no drift; --pilot autopilot flies this mission alone".into());
-    }
-    let baseline = Baseline::new(table.vehicle(), &file.mission, parameters, sense);
-    let both = [
-        (Pilots::Autopilot, Flyer::Autopilot(Box::new(autopilot))),
-        (Pilots::Baseline, Flyer::Baseline(Box::new(baseline))),
-    ];
-    Ok(both.into_iter().filter(|(pilot, _)| who == Pilots::Both || who == *pilot).map(|(_, flyer)| flyer).collect())
-}
-
-/// What a builder would tell the classical controller: which way the vehicle turns with the mass to the left.
-fn turn_sense(table: &TrimTable<'_>, mission: &Mission) -> TurnSense {
-    const MU_RAD: f32 = 0.5;
-    let turn = |path_angle_cdeg: i16, net_mass_g: i16| {
-        let path_angle_rad = f32::from(path_angle_cdeg) * RAD_PER_CDEG;
-        let glide = table.look_up(path_angle_rad, f32::from(net_mass_g) / 1e3, MU_RAD);
-        if glide.turn_rate_rad_s < 0.0 { Turn::Left } else { Turn::Right }
-    };
-    TurnSense {
-        dive: turn(mission.dive_path_angle_cdeg, mission.dive_net_mass_g),
-        climb: turn(mission.climb_path_angle_cdeg, mission.climb_net_mass_g),
-    }
 }

@@ -7,10 +7,7 @@ use std::{
 };
 
 use serde::Serialize;
-use shared::{
-    autopilot::{Autopilot, ConfigurationError},
-    table::TrimTable,
-};
+use shared::table::TrimTable;
 
 use super::progress::Progress;
 use crate::{
@@ -18,11 +15,10 @@ use crate::{
     flight::{FlyingVehicle, Summary, fly},
     mission_file::MissionFile,
     ocean::Ocean,
-    pilot::briefed,
+    pilot::ready,
     record::{Record, Sample},
     report::{self, Flight},
     table::{Envelope, describe, generate},
-    toml_file::FileError,
     whole_file,
 };
 
@@ -138,49 +134,4 @@ fn describe_flight(args: &Args, summary: &Summary) -> String {
 
 fn table_name(args: &Args) -> String {
     args.table.as_ref().map_or_else(|| "trim table".into(), |path| path.display().to_string())
-}
-
-/// The mission as this vehicle flies it, and the autopilot that will, briefed with the chart.
-///
-/// # Errors
-/// One line with what of the mission cannot be flown.
-pub(super) fn ready<'a>(
-    asked: MissionFile,
-    flying: &FlyingVehicle<'_>,
-    table: &TrimTable<'a>,
-    ocean: &Ocean,
-) -> Result<(MissionFile, Autopilot<'a>), String> {
-    let file = asked.resolve(table).map_err(|error| error.to_string())?;
-    let parameters = briefed(&file.parameters, &file.mission, ocean, &flying.vehicle.water);
-    let autopilot =
-        Autopilot::new(table, &file.mission, &parameters).map_err(|error| refusal(&file, &error).to_string())?;
-    file.check_energy(flying, table).map_err(|error| error.to_string())?;
-    Ok((file, autopilot))
-}
-
-/// Why a mission cannot be flown, in the mission file's own names and units.
-pub(super) fn refusal(file: &MissionFile, error: &ConfigurationError) -> FileError {
-    let (key, value, min, max) = match error {
-        ConfigurationError::Mission(wrong) => {
-            let (key, scale) = in_file(wrong.field);
-            let [value, min, max] = [wrong.value, wrong.min, wrong.max].map(|integer| f64::from(integer) / scale);
-            (format!("mission.{key}"), value, min, max)
-        }
-        ConfigurationError::Parameter(row, value) => {
-            (format!("parameters.{}", row.name), f64::from(*value), f64::from(row.min), f64::from(row.max))
-        }
-    };
-    file.mistake(&key, format!("`{key}` is {value}, but this vehicle and its trim table take {min} to {max}"))
-}
-
-/// Key of the mission file for a field of the mission, and how many of the field's units make one of the file's.
-fn in_file(field: &str) -> (String, f64) {
-    for (ours, theirs, scale) in
-        [("_mm", "_m", 1e3), ("_cdeg", "_deg", 1e2), ("_cdeg_s", "_deg_s", 1e2), ("_g", "_kg", 1e3)]
-    {
-        if let Some(stem) = field.strip_suffix(ours) {
-            return (format!("{stem}{theirs}"), scale);
-        }
-    }
-    (field.into(), 1.0)
 }

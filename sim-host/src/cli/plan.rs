@@ -5,12 +5,13 @@ use std::{fs, io::Write, num::NonZero, path::PathBuf, thread};
 use serde::Serialize;
 use shared::table::TrimTable;
 
-use super::{campaign::check_current, fly::ready, progress};
+use super::{campaign::check_current, progress};
 use crate::{
     campaign::Spread,
     flight::FlyingVehicle,
     mission_file::MissionFile,
     ocean::Ocean,
+    pilot::ready,
     plan::{self, Limit, Plan, Planned, Surfacing},
     table::{Envelope, describe, generate},
     whole_file,

@@ -23,7 +23,8 @@ use std::num::NonZero;
 use nalgebra::{DMatrix, DVector, RowDVector};
 use serde::Serialize;
 use shared::{
-    device::{TICK_HZ, TICK_S},
+    device::{RAD_PER_CDEG, TICK_HZ, TICK_S},
+    mission::Mission,
     parameters::Parameters,
     pitch::Steady,
     table::{Grid, TrimTable},
@@ -134,6 +135,19 @@ fn places(grid: &Grid, sign: f32) -> impl Iterator<Item = Steady> {
             Steady { path_angle_rad: -sign * root * root, net_mass_kg: sign * squared * squared }
         })
     })
+}
+
+/// What a mission flies: its dives and its climbs.
+#[must_use]
+pub fn glides(mission: &Mission) -> [Steady; 2] {
+    let steady = |path_angle_cdeg: i16, net_mass_g: i16| Steady {
+        path_angle_rad: f32::from(path_angle_cdeg) * RAD_PER_CDEG,
+        net_mass_kg: f32::from(net_mass_g) / 1e3,
+    };
+    [
+        steady(mission.dive_path_angle_cdeg, mission.dive_net_mass_g),
+        steady(mission.climb_path_angle_cdeg, mission.climb_net_mass_g),
+    ]
 }
 
 /// The margins at one glide.

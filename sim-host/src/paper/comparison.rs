@@ -1,7 +1,8 @@
 //! Printed values beside ours.
 
-use maud::{Markup, html};
 use serde::Serialize;
+
+use crate::document::{self, Block, Column, Table};
 
 /// One printed value and ours.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -65,73 +66,42 @@ pub struct Reading {
     pub found: String,
 }
 
-/// All comparisons, as Markdown.
-#[must_use]
-pub fn markdown(rows: &[Row], trends: &[Trend]) -> String {
-    let mut lines = vec![
-        "# Fan & Woolsey (2013), side by side".to_owned(),
-        String::new(),
-        summary(rows, trends),
-        String::new(),
-        "| where | quantity | printed | ours | difference | digits | remark |".to_owned(),
-        "|---|---|---:|---:|---:|---|---|".to_owned(),
-    ];
-    lines.extend(rows.iter().map(|row| {
-        let Row { place, quantity, printed, ours, difference, remark, .. } = row;
-        format!("| {place} | {quantity} | {printed} | {ours} | {difference:+.2e} | {} | {remark} |", digits(row))
-    }));
-    lines.extend(
-        [
-            "",
-            "## What the paper says of trends",
-            "",
-            "| where | statement | reading | holds | found |",
-            "|---|---|---|---|---|",
-        ]
-        .map(str::to_owned),
-    );
-    for trend in trends {
-        for reading in &trend.readings {
-            let Reading { reading, holds, found } = reading;
-            lines.push(format!("| {} | {} | {reading} | {} | {found} |", trend.place, trend.says, yes(*holds)));
-        }
-    }
-    lines.push(String::new());
-    lines.join("\n")
+/// All comparisons.
+pub(super) fn blocks(rows: &[Row], trends: &[Trend]) -> Vec<Block> {
+    vec![
+        Block::Text(summary(rows, trends)),
+        Block::Table(values(rows)),
+        Block::Heading("What the paper says of trends".into()),
+        Block::Table(readings(trends)),
+    ]
 }
 
-/// The same as tables of a page.
-#[must_use]
-pub fn tables(rows: &[Row], trends: &[Trend]) -> Markup {
-    html! {
-        p { (summary(rows, trends)) }
-        table {
-            thead { tr { th { "where" } th { "quantity" } th.number { "printed" } th.number { "ours" } th.number { "difference" } th { "digits" } th { "remark" } } }
-            tbody {
-                @for row in rows {
-                    tr.missed[!row.reproduced] {
-                        td { (row.place) } td { (row.quantity) }
-                        td.number { (row.printed) } td.number { (row.ours) } td.number { (format!("{:+.2e}", row.difference)) }
-                        td { (digits(row)) } td { (row.remark) }
-                    }
-                }
-            }
-        }
-        h2 { "What the paper says of trends" }
-        table {
-            thead { tr { th { "where" } th { "statement" } th { "reading" } th { "holds" } th { "found" } } }
-            tbody {
-                @for trend in trends {
-                    @for reading in &trend.readings {
-                        tr.missed[!reading.holds] {
-                            td { (trend.place) } td { (trend.says) } td { (reading.reading) }
-                            td { (yes(reading.holds)) } td { (reading.found) }
-                        }
-                    }
-                }
-            }
-        }
-    }
+fn values(rows: &[Row]) -> Table {
+    let row = |row: &Row| {
+        let Row { place, quantity, printed, ours, difference, reproduced, remark } = row;
+        let numbers = [printed, ours].map(String::clone).into_iter().chain([format!("{difference:+.2e}")]);
+        let cells = [place, quantity].map(String::clone).into_iter().chain(numbers);
+        let cells = cells.chain([remark.clone(), if *reproduced { "all" } else { "not all" }.into()]);
+        document::Row { cells: cells.collect(), missed: !reproduced }
+    };
+    let numbers = ["printed", "ours", "difference"].map(|name| Column::Number(name.into()));
+    let columns = ["where", "quantity"].map(words).into_iter().chain(numbers).chain(["remark", "digits"].map(words));
+    Table { columns: columns.collect(), rows: rows.iter().map(row).collect() }
+}
+
+fn readings(trends: &[Trend]) -> Table {
+    let row = |trend: &Trend, reading: &Reading| {
+        let Reading { reading, holds, found } = reading;
+        let verdict = if *holds { "yes" } else { "no" };
+        let cells = [trend.place.as_str(), &trend.says, reading, found, verdict].map(str::to_owned);
+        document::Row { cells: cells.into(), missed: !holds }
+    };
+    let rows = trends.iter().flat_map(|trend| trend.readings.iter().map(move |reading| row(trend, reading)));
+    Table { columns: ["where", "statement", "reading", "found", "holds"].map(words).into(), rows: rows.collect() }
+}
+
+fn words(name: &str) -> Column {
+    Column::Words(name.into())
 }
 
 fn summary(rows: &[Row], trends: &[Trend]) -> String {
@@ -142,14 +112,6 @@ fn summary(rows: &[Row], trends: &[Trend]) -> String {
         rows.len(),
         trends.len()
     )
-}
-
-fn digits(row: &Row) -> &'static str {
-    if row.reproduced { "all" } else { "not all" }
-}
-
-fn yes(holds: bool) -> &'static str {
-    if holds { "yes" } else { "no" }
 }
 
 #[cfg(test)]

@@ -6,11 +6,14 @@ pub mod performance;
 pub mod tables;
 pub mod turning;
 
-use std::{fs, io::Write, path::Path};
+use std::path::Path;
 
-use maud::{PreEscaped, html};
-
-use crate::{chart::Figure, page::page, vehicle::Vehicle, whole_file};
+use crate::{
+    chart::Figure,
+    document::{Block, Document},
+    vehicle::Vehicle,
+    whole_file,
+};
 use comparison::{Row, Trend};
 
 /// The vehicle whose tables the paper prints.
@@ -58,40 +61,22 @@ impl Reproduction {
     /// # Errors
     /// One line that names the file that could not be written.
     pub fn write(&self, folder: &Path) -> Result<(), String> {
-        fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+        self.document().write(folder, "comparison")?;
         for (name, figure) in &self.figures {
-            whole_file::write(&folder.join(format!("{name}.svg")), |file| writeln!(file, "{}", figure.svg()))?;
             whole_file::write(&folder.join(format!("{name}.csv")), |file| figure.write_csv(file))?;
         }
-        whole_file::write(&folder.join("comparison.md"), |file| write!(file, "{}", self.markdown()))?;
-        whole_file::write(&folder.join("comparison.html"), |file| writeln!(file, "{}", self.page()))
+        Ok(())
     }
 
-    fn markdown(&self) -> String {
-        let remarks: Vec<String> = REMARKS.iter().map(|remark| format!("* {remark}")).collect();
-        let figures: Vec<String> =
-            self.figures.iter().map(|(name, figure)| format!("![{}]({name}.svg)", figure.title)).collect();
-        let parts = [
-            comparison::markdown(&self.rows, &self.trends),
-            "## What the paper leaves open".to_owned(),
-            remarks.join("\n"),
-            "## Figures".to_owned(),
-            figures.join("\n\n"),
-            String::new(),
-        ];
-        parts.join("\n\n")
-    }
-
-    fn page(&self) -> String {
-        let title = "Fan & Woolsey (2013), side by side";
-        let body = html! {
-                    h1 { (title) }
-                    (comparison::tables(&self.rows, &self.trends))
-                    h2 { "What the paper leaves open" }
-                    ul { @for remark in REMARKS { li { (remark) } } }
-                    h2 { "Figures" }
-                    @for (_, figure) in &self.figures { div.figure { (PreEscaped(figure.svg())) } }
-        };
-        page(title, include_str!("page.css"), &body)
+    fn document(&self) -> Document {
+        let figure = |(name, figure): &(String, Figure)| Block::Figure(name.clone(), Box::new(figure.clone()));
+        let mut blocks = comparison::blocks(&self.rows, &self.trends);
+        blocks.extend([
+            Block::Heading("What the paper leaves open".into()),
+            Block::List(REMARKS.map(str::to_owned).into()),
+            Block::Heading("Figures".into()),
+        ]);
+        blocks.extend(self.figures.iter().map(figure));
+        Document { title: "Fan & Woolsey (2013), side by side".into(), blocks }
     }
 }

@@ -121,97 +121,100 @@ fn drain(section: &mut Section<'_>) -> Drain {
 }
 
 fn dropouts(section: &mut Section<'_>) -> Vec<Dropout> {
-    let of = |(key, instrument)| spans(section, key).into_iter().map(move |span| (instrument, span));
-    let spans = INSTRUMENTS.into_iter().flat_map(of);
-    spans.map(|(instrument, [from_s, until_s])| Dropout { instrument, from_s, until_s }).collect()
+    spans(section, &INSTRUMENTS, |instrument, [from_s, until_s]| Dropout { instrument, from_s, until_s })
 }
 
 fn stuck(section: &mut Section<'_>) -> Vec<Stuck> {
-    let of = |(key, actuator)| spans(section, key).into_iter().map(move |span| (actuator, span));
-    let spans = ACTUATORS.into_iter().flat_map(of);
-    spans.map(|(actuator, [from_s, until_s])| Stuck { actuator, from_s, until_s }).collect()
+    spans(section, &ACTUATORS, |actuator, [from_s, until_s]| Stuck { actuator, from_s, until_s })
 }
 
-/// Stretches of time, each from and until, s after the start.
-fn spans(section: &mut Section<'_>, key: &'static str) -> Vec<[f64; 2]> {
-    let Some(rows) = section.optional_pairs(key) else { return Vec::new() };
-    let wrong = rows.is_empty() || rows.iter().any(|[from_s, until_s]| *from_s < 0.0 || until_s <= from_s);
-    section.refuse_if(wrong, key, "rows of [from, until] in s after the start, each until after its from");
-    rows
+/// Stretches of time of each device by its key: rows of from and until, s after the start.
+fn spans<D: Copy, T>(section: &mut Section<'_>, devices: &[(&'static str, D)], span: fn(D, [f64; 2]) -> T) -> Vec<T> {
+    let mut spans = Vec::new();
+    for &(key, device) in devices {
+        let Some(rows) = section.optional_pairs(key) else { continue };
+        let wrong = rows.is_empty() || rows.iter().any(|[from_s, until_s]| *from_s < 0.0 || until_s <= from_s);
+        section.refuse_if(wrong, key, "rows of [from, until] in s after the start, each until after its from");
+        spans.extend(rows.into_iter().map(|row| span(device, row)));
+    }
+    spans
+}
+
+/// A struct of which the numbers that stand in the section are read, each by its own name; the others stay.
+macro_rules! with_numbers {
+    ($section:ident, $usual:expr, { $($name:ident: $rule:expr),+ $(,)? }) => {{
+        let mut read = $usual;
+        $(read.$name = $section.number_or(stringify!($name), $rule, read.$name);)+
+        read
+    }};
 }
 
 fn cells(battery: &mut Section<'_>) -> Cells {
-    let usual = Cells::default();
-    Cells {
-        resistance_ohm: battery.number_or("resistance_ohm", SIZE, usual.resistance_ohm),
-        droop: battery.number_or("droop", SHARE, usual.droop),
-    }
+    with_numbers!(battery, Cells::default(), { resistance_ohm: SIZE, droop: SHARE })
 }
 
 fn sensors(sensors: &mut Section<'_>) -> SensorErrors {
-    let usual = SensorErrors::default();
-    SensorErrors {
+    let of_instruments = SensorErrors {
         pressure: sensors.optional_section("pressure", pressure).unwrap_or_default(),
         compass: sensors.optional_section("compass", compass).unwrap_or_default(),
         altimeter: sensors.optional_section("altimeter", altimeter).unwrap_or_default(),
         housekeeping: sensors.optional_section("housekeeping", housekeeping).unwrap_or_default(),
-        gps_noise_m: sensors.number_or("gps_noise_m", SIZE, usual.gps_noise_m),
-        gps_acquisition_s: sensors.number_or("gps_acquisition_s", SIZE, usual.gps_acquisition_s),
-        modem_acquisition_s: sensors.number_or("modem_acquisition_s", SIZE, usual.modem_acquisition_s),
-        pot_noise: sensors.number_or("pot_noise", SHARE, usual.pot_noise),
-    }
+        ..SensorErrors::default()
+    };
+    with_numbers!(sensors, of_instruments, {
+        gps_noise_m: SIZE,
+        gps_acquisition_s: SIZE,
+        modem_acquisition_s: SIZE,
+        pot_noise: SHARE,
+    })
 }
 
 fn pressure(pressure: &mut Section<'_>) -> PressureErrors {
-    let usual = PressureErrors::default();
-    PressureErrors {
-        range_over_crush: pressure.number_or("range_over_crush", Rule::Positive, usual.range_over_crush),
-        noise_pa: pressure.number_or("noise_pa", SIZE, usual.noise_pa),
-        bias_pa: pressure.number_or("bias_pa", SIZE, usual.bias_pa),
-        drift_pa_h: pressure.number_or("drift_pa_h", SIZE, usual.drift_pa_h),
-        creep: pressure.number_or("creep", SHARE, usual.creep),
-        creep_s: pressure.number_or("creep_s", SIZE, usual.creep_s),
-        zeroing_s: pressure.number_or("zeroing_s", SIZE, usual.zeroing_s),
-    }
+    with_numbers!(pressure, PressureErrors::default(), {
+        range_over_crush: Rule::Positive,
+        noise_pa: SIZE,
+        bias_pa: SIZE,
+        drift_pa_h: SIZE,
+        creep: SHARE,
+        creep_s: SIZE,
+        zeroing_s: SIZE,
+    })
 }
 
 fn compass(compass: &mut Section<'_>) -> CompassErrors {
-    let usual = CompassErrors::default();
-    CompassErrors {
-        tilt_noise_deg: compass.number_or("tilt_noise_deg", SIZE, usual.tilt_noise_deg),
-        heading_noise_deg: compass.number_or("heading_noise_deg", SIZE, usual.heading_noise_deg),
-        rate_noise_deg_s: compass.number_or("rate_noise_deg_s", SIZE, usual.rate_noise_deg_s),
-        tilt_bias_deg: compass.number_or("tilt_bias_deg", SIZE, usual.tilt_bias_deg),
-        heading_bias_deg: compass.number_or("heading_bias_deg", SIZE, usual.heading_bias_deg),
-        lag_s: compass.number_or("lag_s", SIZE, usual.lag_s),
-        earth_ut: compass.number_or("earth_ut", Rule::Positive, usual.earth_ut),
-        battery_ut_m: compass.number_or("battery_ut_m", SIZE, usual.battery_ut_m),
-        battery_roll_ut: compass.number_or("battery_roll_ut", SIZE, usual.battery_roll_ut),
-        depth_ut_km: compass.number_or("depth_ut_km", SIZE, usual.depth_ut_km),
-    }
+    with_numbers!(compass, CompassErrors::default(), {
+        tilt_noise_deg: SIZE,
+        heading_noise_deg: SIZE,
+        rate_noise_deg_s: SIZE,
+        tilt_bias_deg: SIZE,
+        heading_bias_deg: SIZE,
+        lag_s: SIZE,
+        earth_ut: Rule::Positive,
+        battery_ut_m: SIZE,
+        battery_roll_ut: SIZE,
+        depth_ut_km: SIZE,
+    })
 }
 
 fn altimeter(altimeter: &mut Section<'_>) -> AltimeterErrors {
-    let usual = AltimeterErrors::default();
-    AltimeterErrors {
+    with_numbers!(altimeter, AltimeterErrors::default(), {
         // Bounds that do not overlap: whatever is given, the nearest floor is nearer than the farthest.
-        least_m: altimeter.number_or("least_m", Rule::Within(0.0, 5.0), usual.least_m),
-        most_m: altimeter.number_or("most_m", Rule::Above(5.0), usual.most_m),
-        mount_deg: altimeter.number_or("mount_deg", Rule::Within(-90.0, 90.0), usual.mount_deg),
-        beam_deg: altimeter.number_or("beam_deg", Rule::Within(0.0, 89.0), usual.beam_deg),
-        dropout: altimeter.number_or("dropout", SHARE, usual.dropout),
-        noise_m: altimeter.number_or("noise_m", SIZE, usual.noise_m),
-        step_m: altimeter.number_or("step_m", Rule::Positive, usual.step_m),
-    }
+        least_m: Rule::Within(0.0, 5.0),
+        most_m: Rule::Above(5.0),
+        mount_deg: Rule::Within(-90.0, 90.0),
+        beam_deg: Rule::Within(0.0, 89.0),
+        dropout: SHARE,
+        noise_m: SIZE,
+        step_m: Rule::Positive,
+    })
 }
 
 fn housekeeping(housekeeping: &mut Section<'_>) -> HousekeepingErrors {
-    let usual = HousekeepingErrors::default();
-    HousekeepingErrors {
-        leak_noise_v: housekeeping.number_or("leak_noise_v", SIZE, usual.leak_noise_v),
-        leak_glitches_per_h: housekeeping.number_or("leak_glitches_per_h", SIZE, usual.leak_glitches_per_h),
-        vacuum_noise_pa: housekeeping.number_or("vacuum_noise_pa", SIZE, usual.vacuum_noise_pa),
-        voltage_noise_v: housekeeping.number_or("voltage_noise_v", SIZE, usual.voltage_noise_v),
-        charge_gain: housekeeping.number_or("charge_gain", SIZE, usual.charge_gain),
-    }
+    with_numbers!(housekeeping, HousekeepingErrors::default(), {
+        leak_noise_v: SIZE,
+        leak_glitches_per_h: SIZE,
+        vacuum_noise_pa: SIZE,
+        voltage_noise_v: SIZE,
+        charge_gain: SIZE,
+    })
 }

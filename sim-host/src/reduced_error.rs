@@ -74,8 +74,9 @@ impl Truth {
     }
 }
 
-/// Every apogee and crest of the paper's Slocum in still water, straight ahead, so that the errors are those of the inflection;
-/// with its own fast pump, then with a deep glider's.
+/// Every apogee and crest of the paper's Slocum in still water, with its own fast pump, then with a deep glider's.
+///
+/// Straight ahead, so that the errors are those of the inflection.
 ///
 /// # Errors
 /// What keeps the vehicle from flying, in one line.

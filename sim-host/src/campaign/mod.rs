@@ -16,8 +16,10 @@ use std::num::NonZero;
 pub use crew::{Flyer, Pilots, Water};
 pub use draw::{Drawn, FACTORS};
 pub use metrics::{METRICS, Metric, Seen};
-pub use page::html;
+pub use page::{distributions, html};
 pub use statistics::{Spread, Tally, tallies};
+pub(crate) use statistics::{parties, quantile, sorted};
+pub(crate) use table::{cells, share};
 pub use table::{text, write_csv};
 
 use crate::{
@@ -67,6 +69,15 @@ pub struct Flown {
     pub values: Vec<Option<f64>>,
 }
 
+impl Flown {
+    /// A figure by its name; nothing if there is none, or the flight did not come to it.
+    #[must_use]
+    pub fn value(&self, metric: &str) -> Option<f64> {
+        let index = METRICS.iter().position(|known| known.name == metric)?;
+        self.values.get(index).copied().flatten()
+    }
+}
+
 /// Flies all waters, pilots and seeds, in this order, on some threads; `landed` hears of each flight that is over.
 ///
 /// # Errors
@@ -84,28 +95,41 @@ pub fn run(campaign: &Campaign<'_>, threads: NonZero<usize>, landed: impl FnMut(
 
 /// One flight; its record is measured and dropped.
 fn fly_one(campaign: &Campaign<'_>, water: &Water<'_>, flyer: &Flyer<'_>, seed: u64) -> Result<Flown, String> {
-    let MissionFile { mission, start, .. } = campaign.file;
-    let drawn = Drawn::new(seed, campaign.current_m_s);
-    let mut record = Record { start: *start, water: campaign.vehicle.water.clone(), samples: Vec::new() };
-    let flight = DrawnFlight {
-        nominal: campaign.vehicle,
-        charted: &water.ocean,
-        file: campaign.file,
-        drawn: &drawn,
-        seed,
-        sensor_errors: sensor_errors(),
-    };
-    let summary = flight.fly(flyer.fresh().as_mut(), &mut |tick| record.samples.push(Sample::from(tick)))?;
-    let seen = Seen { mission, record: &record, summary: &summary };
+    let (record, summary) = recorded(campaign, water, flyer, seed)?;
+    let seen = Seen { mission: &campaign.file.mission, record: &record, summary: &summary };
     Ok(Flown {
         water: water.name.clone(),
         pilot: flyer.name(),
         seed,
-        drawn,
+        drawn: Drawn::new(seed, campaign.current_m_s),
         outcome: summary.outcome,
         reason: summary.reason(),
         values: METRICS.iter().map(|metric| (metric.of)(&seen)).collect(),
     })
+}
+
+/// One flight with its record.
+///
+/// # Errors
+/// What keeps the vehicle from flying, in one line.
+pub(crate) fn recorded(
+    campaign: &Campaign<'_>,
+    water: &Water<'_>,
+    flyer: &Flyer<'_>,
+    seed: u64,
+) -> Result<(Record, Summary), String> {
+    let start = campaign.file.start;
+    let mut record = Record { start, water: campaign.vehicle.water.clone(), samples: Vec::new() };
+    let flight = DrawnFlight {
+        nominal: campaign.vehicle,
+        charted: &water.ocean,
+        file: campaign.file,
+        drawn: &Drawn::new(seed, campaign.current_m_s),
+        seed,
+        sensor_errors: sensor_errors(),
+    };
+    let summary = flight.fly(flyer.fresh().as_mut(), &mut |tick| record.samples.push(Sample::from(tick)))?;
+    Ok((record, summary))
 }
 
 /// A flight of the vehicle, in the water and with the instruments that a seed drew.

@@ -36,7 +36,7 @@ pub fn html(title: &str, flown: &[Flown], tallies: &[Tally]) -> String {
     let body = html! {
                 h1 { (title) }
                 p { (ABOUT) }
-                div.scroll { (PreEscaped(distributions(flown).svg())) }
+                div.scroll { (PreEscaped(distributions("Share of flights below a value", flown).svg())) }
                 @for pilots in tallies.chunk_by(|a, b| a.environment == b.environment) { (table(pilots)) }
                 dl { @for metric in METRICS { dt { (metric.name) } dd { (metric.about) } } }
     };
@@ -66,10 +66,11 @@ fn table(pilots: &[Tally]) -> Markup {
 }
 
 /// Share of flights below each value: a panel per figure, a colour per water, a stroke per pilot.
-fn distributions(flown: &[Flown]) -> Figure {
+#[must_use]
+pub fn distributions(title: &str, flown: &[Flown]) -> Figure {
     let drawn = METRICS.iter().enumerate().filter(|(_, metric)| DRAWN.contains(&metric.name));
     let panels = drawn.map(|(index, metric)| panel(flown, index, metric.name)).collect();
-    Figure { title: "Share of flights below a value".into(), columns: 2, panels }
+    Figure { title: title.into(), columns: 2, panels }
 }
 
 fn panel(flown: &[Flown], metric: usize, name: &str) -> Panel {
@@ -99,8 +100,10 @@ fn panel(flown: &[Flown], metric: usize, name: &str) -> Panel {
     }
 }
 
-/// The steps of a cumulative distribution, %.
+/// A cumulative distribution, at every hundredth of the flights.
 fn shares(sorted: &[f64]) -> Vec<[f64; 2]> {
-    let share = |count: usize| 100.0 * count as f64 / sorted.len() as f64;
-    sorted.iter().enumerate().flat_map(|(index, value)| [[*value, share(index)], [*value, share(index + 1)]]).collect()
+    if sorted.is_empty() {
+        return Vec::new();
+    }
+    (0..=100).map(f64::from).map(|percent| [quantile(sorted, percent / 100.0), percent]).collect()
 }

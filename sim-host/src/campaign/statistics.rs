@@ -30,7 +30,7 @@ impl Spread {
 }
 
 /// Values, the least first.
-pub(super) fn sorted(values: impl IntoIterator<Item = f64>) -> Vec<f64> {
+pub(crate) fn sorted(values: impl IntoIterator<Item = f64>) -> Vec<f64> {
     let mut sorted: Vec<f64> = values.into_iter().collect();
     sorted.sort_by(f64::total_cmp);
     sorted
@@ -38,7 +38,7 @@ pub(super) fn sorted(values: impl IntoIterator<Item = f64>) -> Vec<f64> {
 
 /// Linear between the sorted values, of which the first is the quantile 0 and the last the quantile 1: type 7 of Hyndman &
 /// Fan, "Sample quantiles in statistical packages", The American Statistician 50(4), 1996.
-pub(super) fn quantile(sorted: &[f64], share: f64) -> f64 {
+pub(crate) fn quantile(sorted: &[f64], share: f64) -> f64 {
     let Some(last) = sorted.len().checked_sub(1) else { return f64::NAN };
     let place = share.clamp(0.0, 1.0) * last as f64;
     let below = place as usize;
@@ -69,7 +69,7 @@ pub fn tallies(flown: &[Flown]) -> Vec<Tally> {
 }
 
 /// The flights of each pilot in each water.
-pub(super) fn parties(flown: &[Flown]) -> impl Iterator<Item = &[Flown]> {
+pub(crate) fn parties(flown: &[Flown]) -> impl Iterator<Item = &[Flown]> {
     flown.chunk_by(|a, b| (&a.water, a.pilot) == (&b.water, b.pilot))
 }
 

@@ -36,7 +36,7 @@ fn block(pilots: &[Tally]) -> String {
 }
 
 /// Share of completed flights.
-pub(super) fn share(tally: &Tally) -> String {
+pub(crate) fn share(tally: &Tally) -> String {
     format!("{:.1} % of {}", 100.0 * tally.completed as f64 / tally.flights as f64, tally.flights)
 }
 
@@ -45,7 +45,7 @@ fn numbers(spread: Option<Spread>) -> String {
 }
 
 /// Lower tenth, median, upper tenth and worst, in three digits or so.
-pub(super) fn cells(spread: Option<Spread>) -> [String; 4] {
+pub(crate) fn cells(spread: Option<Spread>) -> [String; 4] {
     let Some(Spread { p10, median, p90, worst }) = spread else { return ["", "", "", ""].map(String::from) };
     [p10, median, p90, worst].map(|value| {
         let decimals = if worst < 10.0 { 2 } else { usize::from(worst < 100.0) };
@@ -53,20 +53,20 @@ pub(super) fn cells(spread: Option<Spread>) -> [String; 4] {
     })
 }
 
-/// One row per flight: what was drawn, how it ended, its figures; empty where there is no value.
+/// One row per flight of each mission: what was drawn, how it ended, its figures; empty where there is no value.
 ///
 /// # Errors
 /// The path and what went wrong, in one line.
-pub fn write_csv(path: &Path, flown: &[Flown]) -> Result<(), String> {
+pub fn write_csv(path: &Path, missions: &[(&str, &[Flown])]) -> Result<(), String> {
     let drawn = ["ballast_kg", "current_north_m_s", "current_east_m_s"].map(String::from);
     let factors = FACTORS.iter().map(|factor| format!("{}_factor", factor.name));
     let figures = METRICS.iter().map(|metric| metric.name.to_string());
-    let names = ["environment", "pilot", "seed", "outcome", "reason"].map(String::from);
+    let names = ["mission", "environment", "pilot", "seed", "outcome", "reason"].map(String::from);
     whole_file::write(path, |file| {
         let mut csv = csv::Writer::from_writer(file);
         csv.write_record(names.into_iter().chain(figures).chain(drawn).chain(factors))?;
-        for flight in flown {
-            csv.write_record(fields(flight))?;
+        for (mission, flight) in missions.iter().flat_map(|(name, flown)| flown.iter().map(move |one| (name, one))) {
+            csv.write_record(std::iter::once((*mission).to_owned()).chain(fields(flight)))?;
         }
         csv.flush()
     })

@@ -78,7 +78,7 @@ pub(super) fn run(args: &Args) -> Result<(), String> {
 
     let tallies = campaign::tallies(&flown);
     let (csv, html) = (args.out.join("campaign.csv"), args.out.join("campaign.html"));
-    campaign::write_csv(&csv, &flown)?;
+    campaign::write_csv(&csv, &[(&args.mission, &flown)])?;
     let title = title(args, &vehicle);
     whole_file::write(&html, |out| writeln!(out, "{}", campaign::html(&title, &flown, &tallies)))?;
     if args.json {

@@ -15,6 +15,7 @@ mod sensitivity;
 mod size;
 mod stability;
 mod table;
+mod trials;
 mod trim;
 
 use std::{
@@ -43,6 +44,8 @@ enum Command {
     Plan(plan::Args),
     /// Fly a mission with many vehicles, each a little off its file, and compare the autopilot with a classical controller
     Campaign(campaign::Args),
+    /// Fly the autopilot's sea trials: every mission in three waters, and each promise beside its number
+    Trials(trials::Args),
     /// Find a steady straight glide: wings level, or banked if the vehicle is not symmetric
     Trim(trim::Args),
     /// Turn a glide: how much mu, roll and sideslip it takes, and how fast it can turn
@@ -91,6 +94,7 @@ pub fn main() -> ExitCode {
         Command::Fly(args) => fly::run(&args),
         Command::Plan(args) => plan::run(&args),
         Command::Campaign(args) => campaign::run(&args),
+        Command::Trials(args) => trials::run(&args),
         Command::Trim(args) => trim::run(&args),
         Command::Turn(args) => stability::turn(&args),
         Command::Modes(args) => stability::run_modes(&args),

@@ -32,36 +32,18 @@ pub struct Active {
 /// Everything that a specification asks for.
 pub(super) fn constraints(spec: &Spec) -> Vec<Constraint> {
     let limits = &spec.limits;
-    let relative = |name, asked: Option<f64>, of| {
-        asked.map(|asked| Constraint { name, asked, at_least: true, scale: asked.abs(), of })
-    };
-    let real_part = limits.largest_real_part_per_s.map(|asked| Constraint {
-        name: "largest_real_part_per_s",
-        asked,
-        at_least: false,
-        scale: asked.abs().max(0.01),
-        of: |candidate| candidate.largest_real_part_per_s,
-    });
-    let damping = limits.least_damping_ratio.map(|asked| Constraint {
-        name: "least_damping_ratio",
-        asked,
-        at_least: true,
-        scale: asked.abs().max(0.05),
-        of: |candidate| candidate.least_damping_ratio,
-    });
-    let incidence = limits.largest_angle_of_attack_deg.map(|asked| Constraint {
-        name: "largest_angle_of_attack_deg",
-        asked,
-        at_least: false,
-        scale: asked,
-        of: |candidate| candidate.alpha_rad.to_degrees(),
-    });
     let figures = [
-        relative("least_speed_m_s", limits.least_speed_m_s, |candidate| candidate.size.speed_m_s),
-        relative("least_range_m", limits.least_range_m, |candidate| candidate.range_m),
-        real_part,
-        damping,
-        incidence,
+        limits.least_speed_m_s.map(|asked| Constraint::at_least("least_speed_m_s", asked, 0.0, |c| c.size.speed_m_s)),
+        limits.least_range_m.map(|asked| Constraint::at_least("least_range_m", asked, 0.0, |c| c.range_m)),
+        limits
+            .largest_real_part_per_s
+            .map(|asked| Constraint::at_most("largest_real_part_per_s", asked, 0.01, |c| c.largest_real_part_per_s)),
+        limits
+            .least_damping_ratio
+            .map(|asked| Constraint::at_least("least_damping_ratio", asked, 0.05, |c| c.least_damping_ratio)),
+        limits
+            .largest_angle_of_attack_deg
+            .map(|asked| Constraint::at_most("largest_angle_of_attack_deg", asked, 0.0, |c| c.alpha_rad.to_degrees())),
         limits.least_turn_rate_deg_s.map(Constraint::turn_rate),
     ];
     figures.into_iter().flatten().chain(fineness(spec)).collect()
@@ -73,21 +55,27 @@ fn fineness(spec: &Spec) -> Vec<Constraint> {
     let (Some(_), Some([least, most])) = (bounds(Parameter::HullLength), bounds(Parameter::HullFineness)) else {
         return Vec::new();
     };
-    let bound = |name, asked: f64, at_least| Constraint {
-        name,
-        asked,
-        at_least,
-        scale: asked,
-        of: |candidate| candidate.parameter(Parameter::HullFineness),
-    };
-    vec![bound("least hull.fineness", least, true), bound("most hull.fineness", most, false)]
+    let of = |candidate: &Candidate| candidate.parameter(Parameter::HullFineness);
+    vec![
+        Constraint::at_least("least hull.fineness", least, 0.0, of),
+        Constraint::at_most("most hull.fineness", most, 0.0, of),
+    ]
 }
 
 impl Constraint {
+    /// A figure that must not be less; a shortfall counts over what is asked for, or over `least_scale` if that is more.
+    fn at_least(name: &'static str, asked: f64, least_scale: f64, of: fn(&Candidate) -> f64) -> Self {
+        Self { name, asked, at_least: true, scale: asked.abs().max(least_scale), of }
+    }
+
+    /// A figure that must not be more; likewise.
+    fn at_most(name: &'static str, asked: f64, least_scale: f64, of: fn(&Candidate) -> f64) -> Self {
+        Self { at_least: false, ..Self::at_least(name, asked, least_scale, of) }
+    }
+
     /// A least turn rate, deg/s.
     pub(super) fn turn_rate(asked: f64) -> Self {
-        let of = |candidate: &Candidate| candidate.turn_rate_rad_s.to_degrees();
-        Self { name: "least_turn_rate_deg_s", asked, at_least: true, scale: asked.abs().max(1e-3), of }
+        Self::at_least("least_turn_rate_deg_s", asked, 1e-3, |candidate| candidate.turn_rate_rad_s.to_degrees())
     }
 
     /// Whether it bounds the same figure.

@@ -1,0 +1,193 @@
+//! The sea trials of the autopilot: what it promises, beside what many flights and its models come to.
+//!
+//! Every embedded mission is flown in water at rest, stratified and sheared, by the autopilot and by the classical
+//! controller on the same seeds. A [`Claim`] that does not hold stays in the list, with its number.
+
+mod claims;
+mod example;
+mod models;
+mod page;
+mod promises;
+
+use std::{num::NonZero, path::Path};
+
+use serde::Serialize;
+
+pub use claims::{Claim, Limit};
+pub use promises::{Measure, PROMISES, Promise, Quantile, judge};
+
+use shared::table::TrimTable;
+
+use crate::{
+    campaign::{self, Campaign, Flown, Pilots, Tally, Water},
+    chart::Figure,
+    flight::FlyingVehicle,
+    margins,
+    mission_file::MissionFile,
+    table::{Envelope, describe, generate},
+    vehicle::Vehicle,
+};
+
+/// A mission and where it is flown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Trial {
+    /// Its name in tables and of its files.
+    pub name: &'static str,
+    /// An embedded mission.
+    pub mission: &'static str,
+    /// Embedded environments that are deep enough for it.
+    pub waters: &'static [&'static str],
+    /// Speed of a steady current, besides those of the water, from a direction that nobody knows, m/s.
+    pub current_m_s: f64,
+}
+
+/// At rest, stratified, sheared: for a hull that does not give way, as slocum-paper's.
+const WATERS: &[&str] = &["still", "temperate", "tropical"];
+/// The same for a hull that gives way, which nobody can ballast for water of one density.
+const COMPRESSED: &[&str] = &["calm", "temperate", "tropical"];
+/// Where 1000 m are deep enough.
+const DEEP: &[&str] = &["calm", "tropical"];
+
+const fn trial(mission: &'static str, waters: &'static [&'static str]) -> Trial {
+    Trial { name: mission, mission, waters, current_m_s: 0.0 }
+}
+
+/// Everything that is flown.
+pub const TRIALS: [Trial; 6] = [
+    trial("default", WATERS),
+    trial("fast-50", WATERS),
+    trial("slow-50", COMPRESSED),
+    trial("slow-200", COMPRESSED),
+    trial("slow-1000", DEEP),
+    Trial { name: "default-in-current", mission: "default", waters: &["still"], current_m_s: 0.2 },
+];
+
+/// What came of the trials.
+#[derive(Clone, Debug)]
+pub struct Trials {
+    /// Seeds 1 to this one.
+    pub seeds: u64,
+    /// The flights of each.
+    pub flights: Vec<Flights>,
+    /// What was promised, and what is so.
+    pub claims: Vec<Claim>,
+    /// The controller's loops in each mission's glides.
+    pub margins: Vec<GlideMargins>,
+    /// A reversal of the first trial, as both pilots fly it.
+    pub example: Figure,
+}
+
+/// All flights of a trial.
+#[derive(Clone, Debug, Serialize)]
+pub struct Flights {
+    /// The trial's name.
+    pub name: &'static str,
+    /// Its mission.
+    pub mission: &'static str,
+    /// The vehicle's name.
+    pub vehicle: String,
+    /// Speed of the unknown current, m/s.
+    pub current_m_s: f64,
+    /// Every flight.
+    #[serde(skip)]
+    pub flown: Vec<Flown>,
+    /// Their spreads, water by water and pilot by pilot.
+    pub results: Vec<Tally>,
+}
+
+/// The margins at one glide of a mission.
+#[derive(Clone, Debug, Serialize)]
+pub struct GlideMargins {
+    /// The mission.
+    pub mission: &'static str,
+    /// Of which glide.
+    #[serde(flatten)]
+    pub node: margins::Node,
+}
+
+/// A mission with all that it takes to fly it.
+struct Equipped {
+    trial: Trial,
+    file: MissionFile,
+    vehicle: Vehicle,
+    table: Vec<u8>,
+}
+
+/// Number of flights that these trials take.
+#[must_use]
+pub fn count(trials: &[Trial], seeds: u64) -> u64 {
+    trials.iter().map(|trial| 2 * seeds * trial.waters.len() as u64).sum()
+}
+
+/// Flies the trials and checks the models; `landed` hears of each flight that is over.
+///
+/// # Errors
+/// What keeps a vehicle from flying, in one line.
+pub fn run(
+    trials: &[Trial],
+    seeds: u64,
+    threads: NonZero<usize>,
+    mut landed: impl FnMut(&Flown),
+) -> Result<Trials, String> {
+    let equipped = trials.iter().map(Equipped::new).collect::<Result<Vec<_>, _>>()?;
+    let first = equipped.first().ok_or("no trials to fly")?;
+    let example = first.with_campaign(1, |campaign| example::figure(first.trial.mission, campaign))?;
+    let (of_models, margins) = models::check(&equipped)?;
+    let fly = |trial: &Equipped| {
+        let flown = trial.with_campaign(seeds, |campaign| campaign::run(campaign, threads, &mut landed))?;
+        let Trial { name, mission, current_m_s, .. } = trial.trial;
+        let results = campaign::tallies(&flown);
+        Ok(Flights { name, mission, vehicle: trial.vehicle.name.clone(), current_m_s, flown, results })
+    };
+    let flights = equipped.iter().map(fly).collect::<Result<Vec<_>, String>>()?;
+    let of_flights = PROMISES.iter().filter_map(|promise| judge(promise, &flights));
+    let claims = of_flights.chain(of_models).collect();
+    Ok(Trials { seeds, flights, claims, margins, example })
+}
+
+impl Equipped {
+    fn new(trial: &Trial) -> Result<Self, String> {
+        let file = MissionFile::load(trial.mission).map_err(|error| error.to_string())?;
+        let vehicle = Vehicle::load(&file.vehicle).map_err(|error| error.to_string())?;
+        FlyingVehicle::new(&vehicle)?;
+        let table = generate(&vehicle, &Envelope::default())?;
+        Ok(Self { trial: *trial, file, vehicle, table })
+    }
+
+    fn table(&self) -> Result<TrimTable<'_>, String> {
+        TrimTable::parse(&self.table).map_err(|error| format!("trim table: {}", describe(&error)))
+    }
+
+    fn with_campaign<T>(&self, seeds: u64, act: impl FnOnce(&Campaign<'_>) -> Result<T, String>) -> Result<T, String> {
+        let (vehicle, file, table) = (&self.vehicle, &self.file, self.table()?);
+        let waters = self.trial.waters.iter().map(|name| Water::new(name, Pilots::Both, vehicle, &table, file));
+        let waters = waters.collect::<Result<Vec<_>, _>>()?;
+        act(&Campaign { vehicle, file, waters: &waters, seeds, current_m_s: self.trial.current_m_s })
+    }
+}
+
+impl Trials {
+    /// trials.md, trials.html, the figures, and trials.csv with every flight, into a folder.
+    ///
+    /// # Errors
+    /// One line that names the file that could not be written.
+    pub fn write(&self, folder: &Path) -> Result<(), String> {
+        page::document(self).write(folder, "trials")?;
+        let flown: Vec<(&str, &[Flown])> = self.flights.iter().map(|trial| (trial.name, &trial.flown[..])).collect();
+        campaign::write_csv(&folder.join("trials.csv"), &flown)
+    }
+
+    /// The claims as lines of text, what does not hold first.
+    #[must_use]
+    pub fn in_words(&self) -> String {
+        let mut claims: Vec<&Claim> = self.claims.iter().collect();
+        claims.sort_by_key(|claim| claim.holds);
+        let line = |claim: &Claim| {
+            let Claim { what, limit, over, place, .. } = claim;
+            let measured = claim.measured.map_or_else(|| "none".into(), page::in_digits);
+            format!("{:<14}{what}: {measured} ({limit}; {over}; {place})", claim.verdict())
+        };
+        let lines = claims.into_iter().map(line);
+        std::iter::once(page::in_short(&self.claims)).chain(lines).collect::<Vec<_>>().join("\n")
+    }
+}

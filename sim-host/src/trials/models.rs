@@ -1,0 +1,81 @@
+//! What is promised of the models that the autopilot flies by.
+
+use super::{Claim, Equipped, GlideMargins, Limit};
+use crate::{
+    margins::{self, ENOUGH_GAIN, Margins},
+    reduced_error::{self, Inflection, ModelError},
+    table::{BOUND, InterpolationError, TableErrors, measure},
+};
+
+/// What is known of a vehicle's table, with the vehicle's name.
+type OfTable = (String, InterpolationError);
+
+/// The claims of all models, and the margins of each mission's glides.
+///
+/// # Errors
+/// One line: a motion that does not exist.
+pub(super) fn check(equipped: &[Equipped]) -> Result<(Vec<Claim>, Vec<GlideMargins>), String> {
+    let (mut tables, mut glides) = (Vec::<OfTable>::new(), Vec::<GlideMargins>::new());
+    for one in equipped {
+        let (mission, name, table) = (one.trial.mission, &one.vehicle.name, one.table()?);
+        if !tables.iter().any(|(known, _)| known == name) {
+            let TableErrors { dive, climb } = measure(&one.vehicle, &table)?;
+            tables.push((name.clone(), dive.max(&climb)));
+        }
+        if !glides.iter().any(|known| known.mission == mission) {
+            for steady in margins::glides(&one.file.mission) {
+                let node = margins::at(&one.vehicle, &table, &one.file.parameters, steady)?;
+                glides.push(GlideMargins { mission, node });
+            }
+        }
+    }
+    let inflections = reduced_error::inflections()?;
+    let claims = of_tables(&tables).chain(of_reduced_model(&inflections)).chain(of_loops(&glides)).flatten();
+    Ok((claims.collect(), glides))
+}
+
+fn of_tables(tables: &[OfTable]) -> impl Iterator<Item = Option<Claim>> {
+    type Part = fn(&InterpolationError) -> f64;
+    let parts: [(&str, f64, Part); 4] = [
+        ("trim table: speed, %", 100.0 * BOUND.speed, |error| 100.0 * error.speed),
+        ("trim table: pitch, °", BOUND.angle_rad.to_degrees(), |error| error.pitch_rad.to_degrees()),
+        ("trim table: angle of attack, °", BOUND.angle_rad.to_degrees(), |error| error.alpha_rad.to_degrees()),
+        ("trim table: turn rate, %", 100.0 * BOUND.turn_rate, |error| 100.0 * error.turn_rate),
+    ];
+    parts.into_iter().map(|(what, most, part)| {
+        let values = tables.iter().map(|(vehicle, error)| (part(error), vehicle.clone()));
+        Claim::worst(what, Limit::AtMost(most), "middles of all cells", values.collect())
+    })
+}
+
+fn of_reduced_model(inflections: &[Inflection]) -> impl Iterator<Item = Option<Claim>> {
+    type Part = fn(&ModelError) -> f64;
+    type Arithmetic = fn(&Inflection) -> &ModelError;
+    let parts: [(&str, f64, Part); 2] = [
+        ("speed, mm/s", 1e3 * reduced_error::BOUND.speed_m_s, |error| 1e3 * error.speed_m_s),
+        ("depth, mm", 1e3 * reduced_error::BOUND.depth_m, |error| 1e3 * error.depth_m),
+    ];
+    let arithmetics: [(&str, Arithmetic); 2] = [("f32", |both| &both.float), ("fixed point", |both| &both.fixed)];
+    let over = format!("{} inflections", inflections.len());
+    let all = parts.into_iter().flat_map(move |part| arithmetics.map(|arithmetic| (part, arithmetic)));
+    all.map(move |((what, most, part), (name, arithmetic))| {
+        let values = inflections.iter().map(|both| (part(arithmetic(both)), both.pump.to_owned()));
+        Claim::worst(format!("reduced model in {name}: {what}"), Limit::AtMost(most), &over, values.collect())
+    })
+}
+
+fn of_loops(glides: &[GlideMargins]) -> impl Iterator<Item = Option<Claim>> {
+    type Loop = fn(&GlideMargins) -> Margins;
+    let loops: [(&str, Loop); 2] = [("pitch", |glide| glide.node.pitch), ("heading", |glide| glide.node.heading)];
+    loops.into_iter().map(|(name, of)| {
+        let over = format!("{} glides", glides.len());
+        let values = glides.iter().map(|glide| (gain(of(glide)), glide.mission.to_owned()));
+        Claim::worst(format!("gain margin of the {name} loop"), Limit::AtLeast(ENOUGH_GAIN), &over, values.collect())
+    })
+}
+
+/// The gain margin: nothing left of a loop that is unstable, and a hundred where none was found.
+fn gain(margins: Margins) -> f64 {
+    const NONE_FOUND: f64 = 100.0;
+    if margins.is_stable() { margins.gain_margin.unwrap_or(NONE_FOUND) } else { 0.0 }
+}

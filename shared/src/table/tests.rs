@@ -34,6 +34,7 @@ fn vehicle() -> FlightVehicle {
             moving_mass_kg: 9.0,
             turn_length_m: [3.0, 1.0],
         },
+        critical_heading_gain: [[[9.0; 2]; 2]; 2],
     }
 }
 

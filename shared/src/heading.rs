@@ -5,7 +5,7 @@ use crate::{
     math,
     parameters::Parameters,
     pitch::Steady,
-    table::TrimTable,
+    table::{Axis, TrimTable},
 };
 
 /// Tuning, in the units of the loop.
@@ -53,8 +53,14 @@ impl TurnTrim {
 
 /// A turn goes on until its error is this part of the deadband: at its edge it would begin again and again.
 const ENOUGH: i32 = 4;
-/// Time in which an error shall be gone, in lags.
-const LAGS: f32 = 2.25;
+/// Period of the loop whose critical gains a trim table knows, s.
+pub const GAIN_PERIOD_S: i32 = 8;
+/// Part of the critical gain: 6 dB below it, and a tenth for what the table rounds.
+const GAIN_SHARE: f32 = 0.45;
+/// A turn that would take longer is not begun: the mass has no authority, s.
+const LONGEST_TIME_S: f32 = 600.0;
+/// Rotation over which the authority of the mass is taken, rad.
+const SMALL_MU_RAD: f32 = 0.02;
 /// Part of a difference of turn rates that is believed at once.
 const BIAS_SHARE: f32 = 0.25;
 
@@ -100,8 +106,10 @@ impl HeadingLoop {
         {
             self.learn(trim, table, steady, before_cdeg.saturating_sub(mean_cdeg), near_rad);
         }
-        let wanted_rad_s =
-            if trim.turning { mean_cdeg as f32 * RAD_PER_CDEG / self.time_s(table, steady) } else { 0.0 };
+        let wanted_rad_s = match self.time_s(table, steady) {
+            Some(time_s) if trim.turning => mean_cdeg as f32 * RAD_PER_CDEG / time_s,
+            Some(_) | None => 0.0,
+        };
         let turn_rate_rad_s = wanted_rad_s - trim.bias_rad_s;
         let wanted_rad =
             table.mu_for_turn(steady.path_angle_rad, steady.net_mass_kg, turn_rate_rad_s, near_rad, self.mu_limit_rad);
@@ -113,19 +121,24 @@ impl HeadingLoop {
         if moves { wanted_cdeg } else { mu_cdeg }
     }
 
-    /// Time in which an error shall be gone, s.
+    /// Time in which an error shall be gone, s; nothing where the mass has no authority over the heading.
     ///
-    /// Heading integrates a turn rate that lags by the turn length over the speed and by the period, half of it for the mean
-    /// and half until the next look. An integrator of time T behind a lag τ is damped by ½√(T/τ): ¾ at T = 2.25 τ, which leaves a
-    /// gain margin of 2 wherever the trim table's missions fly (`glider margins`).
-    fn time_s(&self, table: &TrimTable<'_>, steady: &Steady) -> f32 {
-        self.time_s.unwrap_or_else(|| {
-            let [dive_m, climb_m] = table.vehicle().glide.turn_length_m;
-            let length_m = if steady.path_angle_rad < 0.0 { dive_m } else { climb_m };
-            let speed_m_s = table.look_up(steady.path_angle_rad, steady.net_mass_kg, 0.0).speed_m_s;
-            let period_s = self.period_ticks as f32 * TICK_S;
-            LAGS * (math::finite_or(length_m / speed_m_s, 0.0) + period_s)
-        })
+    /// A rotation swings the heading at once, as the vehicle rolls, and turns it later. The swing bounds the gain, rotation
+    /// per error; towards the reversal of control it stays while the turn fades, so there the loop must be slow. The trim table
+    /// knows the gain at which the linear loop swings on for ever (`glider margins`); this law stays [`GAIN_SHARE`] of it.
+    fn time_s(&self, table: &TrimTable<'_>, steady: &Steady) -> Option<f32> {
+        if self.time_s.is_some() {
+            return self.time_s;
+        }
+        let turn_rate_rad_s =
+            |mu_rad: f32| table.look_up(steady.path_angle_rad, steady.net_mass_kg, mu_rad).turn_rate_rad_s;
+        let authority_per_s =
+            math::abs(turn_rate_rad_s(SMALL_MU_RAD) - turn_rate_rad_s(-SMALL_MU_RAD)) / (2.0 * SMALL_MU_RAD);
+        let gain = GAIN_SHARE * critical_gain(table, steady);
+        // A mean that is longer by a factor lags by as much more.
+        let periods = self.period_ticks as f32 * TICK_S / GAIN_PERIOD_S as f32;
+        let time_s = (if periods > 1.0 { periods } else { 1.0 }) / (gain * authority_per_s);
+        (time_s < LONGEST_TIME_S).then_some(time_s)
     }
 
     /// Takes the change of heading over a period in which the mass hung still.
@@ -137,6 +150,19 @@ impl HeadingLoop {
         let learned = trim.bias_rad_s + BIAS_SHARE * (turned_rad_s - expected_rad_s);
         trim.bias_rad_s = math::clamp(learned, -self.bias_limit_rad_s, self.bias_limit_rad_s);
     }
+}
+
+/// Between the gains at the corners of the trim table, on its own axes.
+fn critical_gain(table: &TrimTable<'_>, steady: &Steady) -> f32 {
+    let [dives, climbs] = table.vehicle().critical_heading_gain;
+    let header = table.header();
+    let ([flat, steep], grid) =
+        if steady.path_angle_rad < 0.0 { (dives, &header.dive) } else { (climbs, &header.climb) };
+    let along = |axis: &Axis, value: f32| math::clamp((value - axis.first) / (axis.last - axis.first), 0.0, 1.0);
+    let x = along(&grid.root_path_angle, math::sqrt(math::abs(steady.path_angle_rad)));
+    let y = along(&grid.fourth_root_net_mass, math::sqrt(math::sqrt(math::abs(steady.net_mass_kg))));
+    let [flat, steep] = [flat, steep].map(|[light, heavy]| light + y * (heavy - light));
+    flat + x * (steep - flat)
 }
 
 #[cfg(test)]

@@ -22,6 +22,10 @@ pub struct FlightVehicle {
     pub working_depth_mm: i32,
     /// Longitudinal flight dynamics, for the reduced model.
     pub glide: GlideConstants,
+    /// Rotation of the mass per heading error from which on a loop that looks every
+    /// [`GAIN_PERIOD_S`](crate::heading::GAIN_PERIOD_S) swings ever more, at the corners of the table:
+    /// `[dives, climbs][flattest, steepest][least, most net mass]`; 0 where the loop settles with no gain.
+    pub critical_heading_gain: [[[f32; 2]; 2]; 2],
 }
 
 impl FlightVehicle {

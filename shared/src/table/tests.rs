@@ -21,6 +21,7 @@ fn vehicle() -> FlightVehicle {
         },
         working_depth_mm: 200_000,
         glide: SLOCUM,
+        critical_heading_gain: [[[9.0; 2]; 2]; 2],
     }
 }
 

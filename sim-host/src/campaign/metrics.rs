@@ -1,6 +1,9 @@
 //! What a flight is judged by: one function per figure, over its record. Less is better in all of them.
 
-use shared::mission::{Mission, Phase};
+use shared::{
+    math::wrap_cdeg,
+    mission::{Mission, Phase},
+};
 
 use crate::{
     flight::{Summary, TICK_S},
@@ -63,6 +66,11 @@ pub const METRICS: &[Metric] = &[
         "heading_rms_deg",
         "true heading against its target on steady glides, 120 s after they began",
         heading_rms_deg,
+    ),
+    metric(
+        "compass_rms_deg",
+        "heading that the compass shows against its target on steady glides: without the compass' deviation",
+        compass_rms_deg,
     ),
     metric(
         "path_angle_rms_deg",
@@ -150,18 +158,26 @@ fn turn_settling_s(seen: &Seen<'_>) -> Option<f64> {
     slowest_s(turns, |sample| heading_error_deg(sample).abs() <= ON_HEADING_DEG)
 }
 
-/// Root mean square of an error over all steady samples.
-fn steady_rms(seen: &Seen<'_>, error: impl Fn(&Sample) -> f64) -> Option<f64> {
+/// Root mean square of an error over all steady samples that have it.
+fn steady_rms(seen: &Seen<'_>, error: impl Fn(&Sample) -> Option<f64>) -> Option<f64> {
     let (mut squares, mut count) = (0.0, 0_u32);
-    for sample in glides(seen).flat_map(steady) {
-        squares += error(sample).powi(2);
+    for error in glides(seen).flat_map(steady).filter_map(error) {
+        squares += error.powi(2);
         count += 1;
     }
     (count > 0).then(|| (squares / f64::from(count)).sqrt())
 }
 
 fn heading_rms_deg(seen: &Seen<'_>) -> Option<f64> {
-    steady_rms(seen, heading_error_deg)
+    steady_rms(seen, |sample| Some(heading_error_deg(sample)))
+}
+
+fn compass_rms_deg(seen: &Seen<'_>) -> Option<f64> {
+    steady_rms(seen, |sample| {
+        let target_cdeg = i32::from(sample.commands.target_heading_cdeg);
+        let attitude = sample.measurements.attitude?;
+        Some(f64::from(wrap_cdeg(target_cdeg - i32::from(attitude.heading_cdeg))) / 100.0)
+    })
 }
 
 fn path_angle_rms_deg(seen: &Seen<'_>) -> Option<f64> {
@@ -169,7 +185,7 @@ fn path_angle_rms_deg(seen: &Seen<'_>) -> Option<f64> {
         let diving = sample.commands.phase == Phase::Dive;
         let mission = seen.mission;
         let target_cdeg = if diving { mission.dive_path_angle_cdeg } else { mission.climb_path_angle_cdeg };
-        sample.truth.path_angle_rad().to_degrees() - f64::from(target_cdeg) / 100.0
+        Some(sample.truth.path_angle_rad().to_degrees() - f64::from(target_cdeg) / 100.0)
     })
 }
 

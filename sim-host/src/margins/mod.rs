@@ -46,6 +46,8 @@ use laws::{Laws, servo_per_s};
 const Q: usize = 2;
 const THETA: usize = 3;
 const R: usize = 6;
+/// Place of the first lateral state.
+const LATERAL: usize = 4;
 const STATES: usize = 8;
 /// From an order until the actuator is there, ticks.
 const ACTUATOR_TICKS: usize = 1;
@@ -177,16 +179,22 @@ fn pitch(linear: &Linearised, laws: &Laws<'_>) -> SampledLoop {
 }
 
 /// ψ̇ = (q sin φ + r cos φ)/cos θ stands below the other states.
+///
+/// Of a symmetric vehicle only the lateral half: a pitch that runs away is not seen in the heading, and is told by its own loop.
 fn heading(linear: &Linearised, glide: &Glide, laws: &Laws<'_>) -> SampledLoop {
-    let mut a = DMatrix::zeros(STATES + 1, STATES + 1);
-    a.view_mut((0, 0), (STATES, STATES)).copy_from(&linear.states);
+    let first = if laws.table.header().symmetric { LATERAL } else { 0 };
+    let psi = STATES - first;
+    let mut a = DMatrix::zeros(psi + 1, psi + 1);
+    a.view_mut((0, 0), (psi, psi)).copy_from(&linear.states.view((first, first), (psi, psi)));
     let (sin_phi, cos_phi) = libm::sincos(glide.phi_rad);
-    a[(STATES, Q)] = sin_phi / libm::cos(glide.pitch_rad);
-    a[(STATES, R)] = cos_phi / libm::cos(glide.pitch_rad);
+    if first <= Q {
+        a[(psi, Q - first)] = sin_phi / libm::cos(glide.pitch_rad);
+    }
+    a[(psi, R - first)] = cos_phi / libm::cos(glide.pitch_rad);
     let led = laws.r_px_m_per_mu(glide.mu_rad);
     let by_mu = linear.inputs.column(1) + linear.inputs.column(0) * led;
-    let b = DVector::from_fn(STATES + 1, |i, _| if i < STATES { by_mu[i] } else { 0.0 });
-    sampled((&a, &b), STATES, Law::ProportionalMean, laws.mu_per_heading(), laws.parameters.heading_period_s)
+    let b = DVector::from_fn(psi + 1, |i, _| if i < psi { by_mu[first + i] } else { 0.0 });
+    sampled((&a, &b), psi, Law::ProportionalMean, laws.mu_per_heading(), laws.parameters.heading_period_s)
 }
 
 /// The loop over one state of a plant ẋ = A x + b u; the period in s.

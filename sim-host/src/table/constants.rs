@@ -2,7 +2,7 @@
 
 use shared::vehicle::{Actuators, FlightVehicle, GlideConstants, Range};
 
-use super::{Envelope, lag::turn_lengths_m};
+use super::{Envelope, gain::critical_heading_gains, lag::turn_lengths_m};
 use crate::vehicle::Vehicle;
 
 /// What the controller must know of the vehicle, for flights in an envelope.
@@ -49,5 +49,6 @@ pub fn flight_vehicle(vehicle: &Vehicle, envelope: &Envelope) -> Result<FlightVe
             moving_mass_kg: mass.mass_kg as f32,
             turn_length_m: turn_lengths_m(vehicle, envelope)?.map(|length_m| length_m as f32),
         },
+        critical_heading_gain: critical_heading_gains(vehicle, envelope)?,
     })
 }

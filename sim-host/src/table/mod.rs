@@ -2,6 +2,7 @@
 
 mod constants;
 mod error;
+mod gain;
 mod helices;
 mod lag;
 

@@ -73,6 +73,13 @@ fn a_water_from_which_nobody_comes_back_breaks_every_promise() {
 
 /// A quarter of the baseline's on one seed, four times of it on the other: as a whole they are alike.
 #[test]
+fn all_flights_together_count_by_their_squares() {
+    let flights = [3.0, 4.0].map(|value| flown("still", "autopilot", value as u64, value)).to_vec();
+    let claim = |most| judged(Measure::Figure(APOGEE, Quantile::Rms), Limit::AtMost(most), flights.clone());
+    assert!(claim(12.5_f64.sqrt() + 1e-9).holds && !claim(12.5_f64.sqrt() - 1e-9).holds);
+}
+
+#[test]
 fn the_baseline_is_met_seed_by_seed() {
     let both = [("autopilot", [1.0, 4.0]), ("baseline", [4.0, 1.0])];
     let flights = || {
@@ -96,7 +103,13 @@ fn every_promise_speaks_of_what_is_flown_and_measured() {
 
 #[test]
 fn every_flight_stands_in_the_table_and_every_picture_beside_the_page() {
-    const SHORT: Trial = Trial { name: "short", mission: "fast-50", waters: &["still", "temperate"], current_m_s: 0.1 };
+    const SHORT: Trial = Trial {
+        name: "short",
+        mission: "fast-50",
+        surfacings: None,
+        waters: &["still", "temperate"],
+        current_m_s: 0.1,
+    };
     let folder = tempfile::tempdir().unwrap();
     let mut landed = 0;
     let trials = run(&[SHORT], 2, NonZero::new(2).unwrap(), |_| landed += 1).unwrap();

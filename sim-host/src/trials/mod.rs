@@ -35,6 +35,8 @@ pub struct Trial {
     pub name: &'static str,
     /// An embedded mission.
     pub mission: &'static str,
+    /// How often it surfaces, where that is not what its file says.
+    pub surfacings: Option<u16>,
     /// Embedded environments that are deep enough for it.
     pub waters: &'static [&'static str],
     /// Speed of a steady current, besides those of the water, from a direction that nobody knows, m/s.
@@ -49,17 +51,24 @@ const COMPRESSED: &[&str] = &["calm", "temperate", "tropical"];
 const DEEP: &[&str] = &["calm", "tropical"];
 
 const fn trial(mission: &'static str, waters: &'static [&'static str]) -> Trial {
-    Trial { name: mission, mission, waters, current_m_s: 0.0 }
+    Trial { name: mission, mission, surfacings: None, waters, current_m_s: 0.0 }
+}
+
+/// In a current that nobody knows, half as fast as the vehicle.
+const fn in_current(name: &'static str, mission: &'static str, surfacings: Option<u16>) -> Trial {
+    Trial { name, mission, surfacings, waters: &["still"], current_m_s: 0.2 }
 }
 
 /// Everything that is flown.
-pub const TRIALS: [Trial; 6] = [
+pub const TRIALS: [Trial; 8] = [
     trial("default", WATERS),
     trial("fast-50", WATERS),
     trial("slow-50", COMPRESSED),
     trial("slow-200", COMPRESSED),
     trial("slow-1000", DEEP),
-    Trial { name: "default-in-current", mission: "default", waters: &["still"], current_m_s: 0.2 },
+    in_current("legs", "legs", None),
+    in_current("turn", "zigzag", Some(2)),
+    in_current("zigzag", "zigzag", None),
 ];
 
 /// What came of the trials.
@@ -147,15 +156,17 @@ pub fn run(
 
 impl Equipped {
     fn new(trial: &Trial) -> Result<Self, String> {
-        let file = MissionFile::load(trial.mission).map_err(|error| error.to_string())?;
-        let vehicle = Vehicle::load(&file.vehicle).map_err(|error| error.to_string())?;
+        let asked = MissionFile::load(trial.mission).map_err(|error| error.to_string())?;
+        let vehicle = Vehicle::load(&asked.vehicle).map_err(|error| error.to_string())?;
         FlyingVehicle::new(&vehicle)?;
         let table = generate(&vehicle, &Envelope::default())?;
+        let mut file = asked.resolve(&parsed(&table)?).map_err(|error| error.to_string())?;
+        file.mission.surfacings = trial.surfacings.unwrap_or(file.mission.surfacings);
         Ok(Self { trial: *trial, file, vehicle, table })
     }
 
     fn table(&self) -> Result<TrimTable<'_>, String> {
-        TrimTable::parse(&self.table).map_err(|error| format!("trim table: {}", describe(&error)))
+        parsed(&self.table)
     }
 
     fn with_campaign<T>(&self, seeds: u64, act: impl FnOnce(&Campaign<'_>) -> Result<T, String>) -> Result<T, String> {
@@ -164,6 +175,10 @@ impl Equipped {
         let waters = waters.collect::<Result<Vec<_>, _>>()?;
         act(&Campaign { vehicle, file, waters: &waters, seeds, current_m_s: self.trial.current_m_s })
     }
+}
+
+fn parsed(table: &[u8]) -> Result<TrimTable<'_>, String> {
+    TrimTable::parse(table).map_err(|error| format!("trim table: {}", describe(&error)))
 }
 
 impl Trials {

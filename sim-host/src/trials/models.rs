@@ -16,14 +16,18 @@ type OfTable = (String, InterpolationError);
 /// One line: a motion that does not exist.
 pub(super) fn check(equipped: &[Equipped]) -> Result<(Vec<Claim>, Vec<GlideMargins>), String> {
     let (mut tables, mut glides) = (Vec::<OfTable>::new(), Vec::<GlideMargins>::new());
+    let mut known = Vec::new();
     for one in equipped {
         let (mission, name, table) = (one.trial.mission, &one.vehicle.name, one.table()?);
         if !tables.iter().any(|(known, _)| known == name) {
             let TableErrors { dive, climb } = measure(&one.vehicle, &table)?;
             tables.push((name.clone(), dive.max(&climb)));
         }
-        if !glides.iter().any(|known| known.mission == mission) {
-            for steady in margins::glides(&one.file.mission) {
+        for steady in margins::glides(&one.file.mission) {
+            // Some missions share their glides.
+            let glide = (name, steady.path_angle_rad.to_bits(), steady.net_mass_kg.to_bits());
+            if !known.contains(&glide) {
+                known.push(glide);
                 let node = margins::at(&one.vehicle, &table, &one.file.parameters, steady)?;
                 glides.push(GlideMargins { mission, node });
             }

@@ -30,7 +30,7 @@ pub enum Measure {
     OverBaseline(&'static str, Quantile),
 }
 
-/// Which of many values counts.
+/// What many values come to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantile {
     /// Half of them are no greater.
@@ -39,16 +39,28 @@ pub enum Quantile {
     P90,
     /// The greatest.
     Worst,
+    /// The root of their mean square: what holds for all flights together.
+    Rms,
 }
 
 impl Quantile {
     fn of(self, values: Vec<f64>) -> f64 {
-        let share = match self {
-            Self::Median => 0.5,
-            Self::P90 => 0.9,
-            Self::Worst => 1.0,
-        };
-        quantile(&sorted(values), share)
+        let at = |share: f64| quantile(&sorted(values.iter().copied()), share);
+        match self {
+            Self::Median => at(0.5),
+            Self::P90 => at(0.9),
+            Self::Worst => at(1.0),
+            Self::Rms => (values.iter().map(|value| value * value).sum::<f64>() / values.len() as f64).sqrt(),
+        }
+    }
+
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Median => "median",
+            Self::P90 => "p90",
+            Self::Worst => "worst",
+            Self::Rms => "rms",
+        }
     }
 }
 
@@ -57,9 +69,7 @@ impl Measure {
     const fn name(self) -> &'static str {
         match self {
             Self::Completed => "share",
-            Self::Figure(_, Quantile::Median) | Self::OverBaseline(_, Quantile::Median) => "median",
-            Self::Figure(_, Quantile::P90) | Self::OverBaseline(_, Quantile::P90) => "p90",
-            Self::Figure(_, Quantile::Worst) | Self::OverBaseline(_, Quantile::Worst) => "worst",
+            Self::Figure(_, quantile) | Self::OverBaseline(_, quantile) => quantile.name(),
         }
     }
 }
@@ -68,11 +78,11 @@ const FAST: &[&str] = &["default", "fast-50"];
 const SLOW: &[&str] = &["slow-200", "slow-1000"];
 const SLOW_AND_SHALLOW: &[&str] = &["slow-50"];
 const ALL: &[&str] = &["default", "fast-50", "slow-50", "slow-200", "slow-1000"];
-const IN_CURRENT: &[&str] = &["default-in-current"];
 
 const TOO_DEEP: Measure = Measure::Figure("apogee_over_percent", Quantile::Worst);
 const TOO_SHALLOW: Measure = Measure::Figure("apogee_under_percent", Quantile::Worst);
-const HEADING: &str = "heading_rms_deg";
+const HEADING: Measure = Measure::Figure("heading_rms_deg", Quantile::Rms);
+const BY_COMPASS: Measure = Measure::Figure("compass_rms_deg", Quantile::P90);
 const SURFACING: &str = "surfacing_error_percent";
 
 const fn at_most(most: f64, what: &'static str, trials: &'static [&'static str], measure: Measure) -> Promise {
@@ -96,22 +106,24 @@ pub const PROMISES: &[Promise] = &[
     at_most(2.0, "apogee too shallow, slow pump to 200 and 1000 m, % of target", SLOW, TOO_SHALLOW),
     at_most(4.0, "apogee too deep, slow pump to 50 m, % of target", SLOW_AND_SHALLOW, TOO_DEEP),
     at_most(4.0, "apogee too shallow, slow pump to 50 m, % of target", SLOW_AND_SHALLOW, TOO_SHALLOW),
+    at_most(3.0, "heading on steady glides, all flights together, ° rms", ALL, HEADING),
+    at_most(3.0, "heading as the compass shows it, nine tenths of the flights, ° rms", ALL, BY_COMPASS),
     at_most(
-        3.0,
-        "heading on steady glides, half of the flights, ° rms",
-        ALL,
-        Measure::Figure(HEADING, Quantile::Median),
-    ),
-    at_most(
-        3.0,
-        "heading on steady glides, nine tenths of the flights, ° rms",
-        ALL,
-        Measure::Figure(HEADING, Quantile::P90),
+        5.0,
+        "surfacing predicted, third dive on a heading, % of the way",
+        &["legs"],
+        Measure::Figure(SURFACING, Quantile::P90),
     ),
     at_most(
         5.0,
-        "surfacing predicted, first dive into an unknown 0.2 m/s, % of the way",
-        IN_CURRENT,
+        "surfacing predicted, right after a turn of 60°, % of the way",
+        &["turn"],
+        Measure::Figure(SURFACING, Quantile::Median),
+    ),
+    at_most(
+        5.0,
+        "surfacing predicted, after two headings, % of the way",
+        &["zigzag"],
         Measure::Figure(SURFACING, Quantile::P90),
     ),
     no_more_than_baseline("energy per km, over the baseline's", "energy_j_per_km"),

@@ -250,6 +250,8 @@ impl<'a> Config<'a> {
             pass_net_mass_kg: net_mass_kg(PASS_SHARE * next.steady.net_mass_kg),
             next_net_mass_kg: net_mass_kg(next.steady.net_mass_kg),
             net_mass_rate_kg_s: kg_s / navigator.buoyancy().drag_factor(),
+            slope_kg_m: navigator.buoyancy().slope_kg_m(),
+            behind_m: navigator.buoyancy().behind_m(navigator.depth_rate_m_s),
         }
     }
 }

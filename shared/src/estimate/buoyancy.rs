@@ -3,6 +3,9 @@
 //! Sinking goes with the root of net mass over drag, so a glide alone cannot tell a weight error from a drag error: while it
 //! lasts, all of the difference counts as weight, which water that grows denser with depth also is. A dive and the climb
 //! after it can: a weight error makes one faster and the other slower, a drag error both.
+//!
+//! How fast the weight changes with depth is learned too: where the water grows denser, a reversal ends in other water than
+//! it begins in.
 
 use crate::{device::TICK_S, math, parameters::Parameters};
 
@@ -12,6 +15,8 @@ const SETTLE_S: f32 = 40.0;
 const LEARNING_S: f32 = 25.0;
 /// Change of net mass that is more than the buoyancy device's noise, kg.
 const CHANGE_KG: f32 = 0.01;
+/// Depth over which the offset may change by all of its limit, m: the sharpest pycnocline that is believed.
+const SHARPEST_M: f32 = 10.0;
 /// Slower than this, vertical speed says nothing about weight, m/s.
 const SLOW_M_S: f32 = 0.05;
 /// Steady time that a glide needs to be compared with the next, s.
@@ -29,6 +34,8 @@ pub struct Buoyancy {
     offset_kg: f32,
     /// Drag of the vehicle file over the true one.
     thrust: f32,
+    /// Change of the offset with depth, kg/m.
+    slope_kg_m: f32,
     glide: Glide,
     before: Option<Mean>,
 }
@@ -58,6 +65,7 @@ impl Buoyancy {
             drag_limit: parameters.drag_limit_percent as f32 / 100.0,
             offset_kg: 0.0,
             thrust: 1.0,
+            slope_kg_m: 0.0,
             glide: Glide::default(),
             before: None,
         }
@@ -67,6 +75,18 @@ impl Buoyancy {
     #[must_use]
     pub const fn offset_kg(&self) -> f32 {
         self.offset_kg
+    }
+
+    /// Change of [`Self::net_mass_kg`] with depth, kg/m: negative where the water grows denser.
+    #[must_use]
+    pub fn slope_kg_m(&self) -> f32 {
+        self.slope_kg_m * self.thrust
+    }
+
+    /// Way by which the net mass that is known trails the water's changes, m, down positive.
+    #[must_use]
+    pub fn behind_m(&self, depth_rate_m_s: f32) -> f32 {
+        depth_rate_m_s * LEARNING_S
     }
 
     /// True drag over the vehicle file's.
@@ -101,7 +121,15 @@ impl Buoyancy {
         if self.glide.since_s > SETTLE_S + LEARNING_S {
             self.glide.sum_kg_s += self.offset_kg * TICK_S;
             self.glide.steady_s += TICK_S;
+            self.learn_slope(error_kg / (LEARNING_S * model_m_s));
         }
+    }
+
+    /// Takes the slope at which an offset that trails by the learning time is behind by what it is.
+    fn learn_slope(&mut self, slope_kg_m: f32) {
+        let change_kg_m = math::finite_or(slope_kg_m, 0.0) - self.slope_kg_m;
+        let limit_kg_m = self.limit_kg / SHARPEST_M;
+        self.slope_kg_m = math::clamp(self.slope_kg_m + change_kg_m * (TICK_S / LEARNING_S), -limit_kg_m, limit_kg_m);
     }
 
     /// Compares the glide with the one before it: what differs between a dive and a climb is drag.
@@ -166,6 +194,24 @@ mod tests {
     }
 
     #[test]
+    fn water_that_grows_denser_is_found_by_its_slope() {
+        const SLOPE_KG_M: f32 = -5e-4;
+        let mut buoyancy = Buoyancy::new(&Parameters::default());
+        let (mut depth_m, mut truth_m_s) = (0.0, 0.0);
+        for _ in 0..1_600 {
+            truth_m_s = 0.3 * ((MASS_KG + SLOPE_KG_M * depth_m) / MASS_KG).sqrt();
+            let model_m_s = 0.3 * (buoyancy.net_mass_kg(MASS_KG) / MASS_KG).sqrt();
+            buoyancy.update(MASS_KG, model_m_s, truth_m_s);
+            depth_m += truth_m_s * TICK_S;
+        }
+        // The root is taken for a line over the 3.8 g that the offset trails: a quarter of 1.5 %, of the error and so of the slope.
+        assert!((buoyancy.slope_kg_m() / SLOPE_KG_M - 1.0).abs() < 0.01, "{buoyancy:?}");
+        let trails_kg = buoyancy.offset_kg() - SLOPE_KG_M * depth_m;
+        let told_kg = -buoyancy.slope_kg_m() * buoyancy.behind_m(truth_m_s);
+        assert!((trails_kg / told_kg - 1.0).abs() < 0.05, "trails by {trails_kg} kg, told are {told_kg} kg");
+    }
+
+    #[test]
     fn nonsense_stays_within_the_limits() {
         let parameters = Parameters::default();
         let mut buoyancy = Buoyancy::new(&parameters);
@@ -175,6 +221,8 @@ mod tests {
                 let nominal_kg = if glide % 2 == 0 { 0.3 } else { -0.2 };
                 buoyancy.update(nominal_kg, 0.3 * nominal_kg, rates[(tick + glide) as usize % rates.len()]);
                 assert!(buoyancy.offset_kg().abs() <= 1.5e-3 * parameters.buoyancy_limit_g as f32, "{buoyancy:?}");
+                let sharpest_kg_m = parameters.buoyancy_limit_g as f32 * KG_PER_G / SHARPEST_M;
+                assert!(buoyancy.slope_kg_m.abs() <= sharpest_kg_m, "{buoyancy:?}");
                 assert!((0.5..=2.0).contains(&buoyancy.drag_factor()), "{buoyancy:?}");
             }
         }
@@ -185,6 +233,6 @@ mod tests {
         let off = Parameters { buoyancy_limit_g: 0, drag_limit_percent: 0, ..Parameters::default() };
         let mut buoyancy = Buoyancy::new(&off);
         fly(&mut buoyancy, 5, 0.03, 1.2);
-        assert_eq!((buoyancy.offset_kg(), buoyancy.drag_factor()), (0.0, 1.0));
+        assert_eq!((buoyancy.offset_kg(), buoyancy.slope_kg_m(), buoyancy.drag_factor()), (0.0, 0.0, 1.0));
     }
 }

@@ -2,8 +2,10 @@
 //!
 //! A forecast starts from the motion under way and lets the drives run as the autopilot will let them: buoyancy towards the
 //! next glide's, pitch first to its nearly level value, then, once light enough, to the next glide's. It ends where the
-//! vertical speed changes sign. A slow pump takes minutes for that, so a forecast advances a few steps per tick; the way it
-//! finds hardly changes along a glide.
+//! vertical speed changes sign. A slow pump takes minutes for that, so a forecast advances some steps per tick, and is some
+//! seconds old when it is done.
+//!
+//! On its way the water goes on changing as it did: by the net mass's slope over depth.
 
 use crate::{
     math,
@@ -12,8 +14,9 @@ use crate::{
 
 /// Time step of a forecast, s: a twentieth of the time in which speed follows.
 pub const STEP_S: f32 = 1.0;
-/// Steps per tick.
-const STEPS: u32 = 2;
+/// Steps per tick: five minutes of reversal in nine seconds. With a quarter of them the apogees of a slow pump are off by
+/// twice as much in water that changes with depth.
+const STEPS: u32 = 8;
 /// Time by which pitch follows the mass and the mass its order, s.
 const PITCH_LAG_S: f32 = 1.5;
 /// A reversal that takes longer is not one, s.
@@ -34,6 +37,10 @@ pub struct Plan {
     pub next_net_mass_kg: f32,
     /// Speed at which pump or bleed change it, kg/s.
     pub net_mass_rate_kg_s: f32,
+    /// Change of net mass with depth, kg/m.
+    pub slope_kg_m: f32,
+    /// Way by which what is known of the net mass trails the water's changes, m, down positive.
+    pub behind_m: f32,
 }
 
 /// Where a reversal that begins now would turn, found a few steps at a time.
@@ -109,7 +116,9 @@ impl Rollout {
             self.drive.pitch_rad = toward(pitch_rad, goal_rad, plan.pitch_rate_rad_s * STEP_S);
         }
         self.drive.pitch_rate_rad_s = (self.drive.pitch_rad - pitch_rad) / STEP_S;
-        self.motion = model.step(&self.motion, &self.drive);
+        let water_kg = plan.slope_kg_m * (plan.behind_m + self.way_m);
+        let drive = Drive { net_mass_kg: net_mass_kg + water_kg, ..self.drive };
+        self.motion = model.step(&self.motion, &drive);
         self.sink_rate_m_s = self.motion.sink_rate_m_s(self.drive.pitch_rad, self.drive.roll_rad);
         self.way_m += 0.5 * (before_m_s + self.sink_rate_m_s) * STEP_S;
         (self.sink_rate_m_s > 0.0) != self.sinking || self.time_s >= LONGEST_S
@@ -130,7 +139,7 @@ mod tests {
     const NET_MASS_KG: f32 = 0.2129;
 
     /// The turning depth of the made-up vehicle with one pitch throughout, and the sinking it starts from.
-    fn turns_after_m(net_mass_rate_kg_s: f32) -> (f32, f32) {
+    fn turns_after_m(net_mass_rate_kg_s: f32, slope_kg_m: f32) -> (f32, f32) {
         let file = file();
         let vehicle = TrimTable::parse(&file).unwrap().vehicle().clone();
         let drive = Drive {
@@ -148,6 +157,8 @@ mod tests {
             pass_net_mass_kg: -0.1,
             next_net_mass_kg: -NET_MASS_KG,
             net_mass_rate_kg_s,
+            slope_kg_m,
+            behind_m: 0.0,
         };
         let model = Model::new(&vehicle.glide, vehicle.gravity_m_s2, STEP_S);
         let glide = (0..300).fold(Motion::at_rest(), |motion, _| model.step(&motion, &drive));
@@ -161,7 +172,7 @@ mod tests {
     /// When the pump is slow the speed follows the root of the net mass: ∫√(1 − t/T) over T is 2/3 T.
     #[test]
     fn a_slow_reversal_takes_two_thirds_of_the_way_at_full_speed() {
-        let (lead_m, sink_m_s) = turns_after_m(NET_MASS_KG / 600.0);
+        let (lead_m, sink_m_s) = turns_after_m(NET_MASS_KG / 600.0, 0.0);
         let quasi_steady_m = 2.0 / 3.0 * sink_m_s * 600.0;
         // Speed V lags by τ V₀/V, τ = m₁/(2 D₀ V₀) = 18 s, which adds τ ln(V₀/V) at V₀: 36 s of 400 s down to an eighth of it.
         assert!((1.06..1.12).contains(&(lead_m / quasi_steady_m)), "{lead_m} m, {quasi_steady_m} m quasi-steadily");
@@ -169,14 +180,24 @@ mod tests {
 
     #[test]
     fn a_fast_reversal_leaves_the_way_of_coasting() {
-        let (fast_m, sink_m_s) = turns_after_m(1.0);
-        let (slow_m, _) = turns_after_m(NET_MASS_KG / 60.0);
+        let (fast_m, sink_m_s) = turns_after_m(1.0, 0.0);
+        let (slow_m, _) = turns_after_m(NET_MASS_KG / 60.0, 0.0);
         assert!((0.5 * sink_m_s..20.0 * sink_m_s).contains(&fast_m) && fast_m < slow_m, "{fast_m} m, {slow_m} m");
     }
 
     #[test]
     fn a_pump_that_stands_still_ends_no_forecast_in_nonsense() {
-        let (lead_m, sink_m_s) = turns_after_m(0.0);
+        let (lead_m, sink_m_s) = turns_after_m(0.0, 0.0);
         assert!((lead_m / (sink_m_s * LONGEST_S) - 1.0).abs() < 0.01, "{lead_m} m");
+    }
+
+    /// Without a pump it sinks to where it is neutral, and past it: V² follows the net mass within m₁/(2 D₀) of way.
+    #[test]
+    fn denser_water_turns_a_dive_by_itself() {
+        const NEUTRAL_M: f32 = 40.0;
+        let (lead_m, sink_m_s) = turns_after_m(0.0, -NET_MASS_KG / NEUTRAL_M);
+        // τ V₀ of way, of it sink/V₀ downwards; a tenth for the angle of attack, which is another one when V² lags.
+        let coasting_m = 18.0 * sink_m_s;
+        assert!((lead_m / (NEUTRAL_M + coasting_m) - 1.0).abs() < 0.1, "{lead_m} m, {coasting_m} m of it coasting");
     }
 }

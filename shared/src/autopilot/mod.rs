@@ -141,7 +141,8 @@ impl<'a> Autopilot<'a> {
         let actuators = self.config.actuators();
         let (lightest_ul, nose_down_um) = (actuators.vbd_ul.max, actuators.r_px_um.max);
         let heading_cdeg = self.state.heading_cdeg(&self.config.mission);
-        let level = |r_px_um, vbd_ul, pitch_cdeg| Targets { r_px_um, mu_cdeg: 0, vbd_ul, pitch_cdeg, heading_cdeg };
+        let mu_cdeg = self.config.heading.hanging_cdeg(self.state.mu_target_cdeg);
+        let level = |r_px_um, vbd_ul, pitch_cdeg| Targets { r_px_um, mu_cdeg, vbd_ul, pitch_cdeg, heading_cdeg };
         let config = &self.config;
         match self.state.executive.phase {
             // The antenna sits in the tail: nose down lifts it out of the water.
@@ -192,7 +193,7 @@ impl<'a> Autopilot<'a> {
         }
         let trim_um = trim.trim_um;
         if state.navigator.depth_m < HEADING_DEPTH_M {
-            state.mu_target_cdeg = 0;
+            state.mu_target_cdeg = config.heading.hanging_cdeg(state.mu_target_cdeg);
             turn.begin();
         } else if ticks_in_phase >= TURN_SETTLE_S * TICK_HZ || state.executive.phase == Phase::Surfacing {
             let error_cdeg = math::wrap_cdeg(i32::from(heading_cdeg).saturating_sub(state.navigator.heading_cdeg()));

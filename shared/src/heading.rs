@@ -26,12 +26,12 @@ pub struct TurnTrim {
     turning: bool,
     error_sum_cdeg: i32,
     samples: i32,
-    /// Mean error of the period before, if the mass has hung still since it began.
+    /// Mean error of the period before, if the mass has stood still since it began.
     still_cdeg: Option<i32>,
 }
 
 impl TurnTrim {
-    /// Turn rate with the mass hanging straight down, beyond the table's, rad/s.
+    /// Turn rate beyond the table's, rad/s: of a vehicle that is not as its file says, or of a current that shears.
     #[must_use]
     pub const fn bias_rad_s(&self) -> f32 {
         self.bias_rad_s
@@ -39,7 +39,7 @@ impl TurnTrim {
 
     /// Forgets the turn under way: another glide began.
     pub const fn begin(&mut self) {
-        *self = Self { bias_rad_s: self.bias_rad_s, turning: true, error_sum_cdeg: 0, samples: 0, still_cdeg: None };
+        *self = Self { bias_rad_s: self.bias_rad_s, turning: false, error_sum_cdeg: 0, samples: 0, still_cdeg: None };
     }
 
     /// Mean error since the last look, 0.01°.
@@ -51,8 +51,17 @@ impl TurnTrim {
     }
 }
 
+/// A turn begins beyond this many deadbands; what is less, a slow correction takes away.
+const TURN: i32 = 2;
 /// A turn goes on until its error is this part of the deadband: at its edge it would begin again and again.
 const ENOUGH: i32 = 4;
+/// A correction takes this many times as long as a turn: so slow that the mass need not go back at its end.
+const SLOWER: f32 = 4.0;
+/// How far ahead, in times of a correction, the heading must stay in its deadband.
+const AHEAD: f32 = 0.7;
+/// Within this part of the deadband there is nothing to correct: the mass goes where the vehicle flies straight. More than
+/// 1/(1 + [`AHEAD`]), the error at which a correction that went through zero is stopped: else each would call for the next.
+const NEAR: f32 = 0.75;
 /// Period of the loop whose critical gains a trim table knows, s.
 pub const GAIN_PERIOD_S: i32 = 8;
 /// Part of the critical gain: 6 dB below it, and a tenth for what the table rounds.
@@ -62,7 +71,7 @@ const LONGEST_TIME_S: f32 = 600.0;
 /// Rotation over which the authority of the mass is taken, rad.
 const SMALL_MU_RAD: f32 = 0.02;
 /// Part of a difference of turn rates that is believed at once.
-const BIAS_SHARE: f32 = 0.25;
+const BIAS_SHARE: f32 = 0.1;
 
 impl HeadingLoop {
     /// Takes its tuning.
@@ -80,9 +89,9 @@ impl HeadingLoop {
 
     /// Where the mass shall be rotated to, 0.01°, for a heading error (target − heading, short way round).
     ///
-    /// It looks once per period, at the mean error. A turn begins beyond the deadband and ends well inside it; while it
-    /// lasts the mass moves only if the change is worth a move, and at its end it goes back to where the vehicle flies
-    /// straight.
+    /// It looks once per period, at the mean error. A large error begins a turn, which is as quick as the loop allows and ends
+    /// well inside the deadband. Else the mass stands still, and what the heading does then teaches the turn's bias, until
+    /// the heading is about to leave its deadband: one move then sets a turn so slow that it needs no second one to end it.
     pub fn mu_cdeg(
         &self,
         trim: &mut TurnTrim,
@@ -98,27 +107,40 @@ impl HeadingLoop {
             return mu_cdeg;
         }
         let mean_cdeg = trim.look();
-        let near_rad = mu_cdeg as f32 * RAD_PER_CDEG;
-        let band_cdeg = if trim.turning { self.deadband_cdeg / ENOUGH } else { self.deadband_cdeg };
-        trim.turning = mean_cdeg.saturating_abs() > band_cdeg;
+        let Some(turn_time_s) = self.time_s(table, steady) else { return mu_cdeg };
+        let (begins_cdeg, ends_cdeg) = (self.deadband_cdeg.saturating_mul(TURN), self.deadband_cdeg / ENOUGH);
+        trim.turning = mean_cdeg.saturating_abs() > if trim.turning { ends_cdeg } else { begins_cdeg };
+        // An error beyond that comes from another target, not from a turn.
         if !trim.turning
             && let Some(before_cdeg) = trim.still_cdeg
         {
-            self.learn(trim, table, steady, before_cdeg.saturating_sub(mean_cdeg), near_rad);
+            self.learn(trim, table, steady, before_cdeg.saturating_sub(mean_cdeg), mu_cdeg);
         }
-        let wanted_rad_s = match self.time_s(table, steady) {
-            Some(time_s) if trim.turning => mean_cdeg as f32 * RAD_PER_CDEG / time_s,
-            Some(_) | None => 0.0,
+        let time_s = if trim.turning { turn_time_s } else { SLOWER * turn_time_s };
+        let is_near = !trim.turning && math::abs(mean_cdeg as f32) < NEAR * self.deadband_cdeg as f32;
+        let turn_rate_rad_s = if is_near { 0.0 } else { mean_cdeg as f32 * RAD_PER_CDEG / time_s };
+        let wanted_cdeg = self.mu_for_turn_cdeg(table, steady, turn_rate_rad_s - trim.bias_rad_s, mu_cdeg);
+        let moves = if trim.turning {
+            wanted_cdeg.saturating_sub(mu_cdeg).saturating_abs() > self.mu_deadband_cdeg
+        } else {
+            let turns_rad = AHEAD * time_s * expected_rad_s(trim, table, steady, mu_cdeg);
+            math::abs(mean_cdeg as f32 - turns_rad / RAD_PER_CDEG) > self.deadband_cdeg as f32
         };
-        let turn_rate_rad_s = wanted_rad_s - trim.bias_rad_s;
-        let wanted_rad =
-            table.mu_for_turn(steady.path_angle_rad, steady.net_mass_kg, turn_rate_rad_s, near_rad, self.mu_limit_rad);
-        let wanted_cdeg = math::round_to_i32(wanted_rad / RAD_PER_CDEG);
-        let change_cdeg = wanted_cdeg.saturating_sub(mu_cdeg).saturating_abs();
-        let ends = !trim.turning && trim.still_cdeg.is_none();
-        let moves = change_cdeg > self.mu_deadband_cdeg || ends;
-        trim.still_cdeg = (!moves && !trim.turning || change_cdeg == 0).then_some(mean_cdeg);
+        trim.still_cdeg = (!moves && !trim.turning).then_some(mean_cdeg);
         if moves { wanted_cdeg } else { mu_cdeg }
+    }
+
+    /// Where the mass hangs while nothing holds the heading, 0.01°: down, or where it is if that is too near to move for.
+    #[must_use]
+    pub const fn hanging_cdeg(&self, mu_cdeg: i32) -> i32 {
+        if mu_cdeg.saturating_abs() > self.mu_deadband_cdeg { 0 } else { mu_cdeg }
+    }
+
+    fn mu_for_turn_cdeg(&self, table: &TrimTable<'_>, steady: &Steady, turn_rate_rad_s: f32, mu_cdeg: i32) -> i32 {
+        let near_rad = mu_cdeg as f32 * RAD_PER_CDEG;
+        let Steady { path_angle_rad, net_mass_kg } = *steady;
+        let mu_rad = table.mu_for_turn(path_angle_rad, net_mass_kg, turn_rate_rad_s, near_rad, self.mu_limit_rad);
+        math::round_to_i32(mu_rad / RAD_PER_CDEG)
     }
 
     /// Time in which an error shall be gone, s; nothing where the mass has no authority over the heading.
@@ -141,15 +163,19 @@ impl HeadingLoop {
         (time_s < LONGEST_TIME_S).then_some(time_s)
     }
 
-    /// Takes the change of heading over a period in which the mass hung still.
-    fn learn(&self, trim: &mut TurnTrim, table: &TrimTable<'_>, steady: &Steady, turned_cdeg: i32, mu_rad: f32) {
+    /// Takes the change of heading over a period in which the mass stood still.
+    fn learn(&self, trim: &mut TurnTrim, table: &TrimTable<'_>, steady: &Steady, turned_cdeg: i32, mu_cdeg: i32) {
         let period_s = self.period_ticks as f32 * TICK_S;
         let turned_rad_s = turned_cdeg as f32 * RAD_PER_CDEG / period_s;
-        let expected_rad_s =
-            table.look_up(steady.path_angle_rad, steady.net_mass_kg, mu_rad).turn_rate_rad_s + trim.bias_rad_s;
-        let learned = trim.bias_rad_s + BIAS_SHARE * (turned_rad_s - expected_rad_s);
+        let learned = trim.bias_rad_s + BIAS_SHARE * (turned_rad_s - expected_rad_s(trim, table, steady, mu_cdeg));
         trim.bias_rad_s = math::clamp(learned, -self.bias_limit_rad_s, self.bias_limit_rad_s);
     }
+}
+
+/// Turn rate with the mass rotated so far, as the table says and what was learned, rad/s.
+fn expected_rad_s(trim: &TurnTrim, table: &TrimTable<'_>, steady: &Steady, mu_cdeg: i32) -> f32 {
+    let mu_rad = mu_cdeg as f32 * RAD_PER_CDEG;
+    table.look_up(steady.path_angle_rad, steady.net_mass_kg, mu_rad).turn_rate_rad_s + trim.bias_rad_s
 }
 
 /// Between the gains at the corners of the trim table, on its own axes.
@@ -166,80 +192,4 @@ fn critical_gain(table: &TrimTable<'_>, steady: &Steady) -> f32 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::table::tests::file;
-
-    fn mu_for(path_angle_rad: f32, error_cdeg: i32) -> i32 {
-        let file = file();
-        let table = TrimTable::parse(&file).unwrap();
-        let steady = Steady { path_angle_rad, net_mass_kg: 0.25 };
-        HeadingLoop::new(&Parameters::default()).mu_cdeg(&mut TurnTrim::default(), &table, &steady, 0, error_cdeg, 0)
-    }
-
-    #[test]
-    fn the_sense_of_the_turn_comes_from_the_table() {
-        // The made-up vehicle turns right with mu < 0 on dives and mu > 0 on climbs.
-        assert!(mu_for(-0.4, 3_000) < 0);
-        assert!(mu_for(0.4, 3_000) > 0);
-        assert_eq!(mu_for(0.4, 3_000), -mu_for(0.4, -3_000));
-    }
-
-    /// Flies straight for some periods on the table's turn rate and a bias beyond it; the trim and the last error, 0.01°.
-    fn hold(bias_rad_s: f32, periods: u32) -> (TurnTrim, f32, u32) {
-        let file = file();
-        let table = TrimTable::parse(&file).unwrap();
-        let steady = Steady { path_angle_rad: -0.4, net_mass_kg: 0.25 };
-        let parameters = Parameters::default();
-        let heading_loop = HeadingLoop::new(&parameters);
-        let (mut trim, mut mu_cdeg, mut error_cdeg, mut moves) = (TurnTrim::default(), 0, 0.0, 0);
-        for tick in 0..periods.saturating_mul(heading_loop.period_ticks) {
-            let before_cdeg = mu_cdeg;
-            mu_cdeg = heading_loop.mu_cdeg(&mut trim, &table, &steady, tick, error_cdeg as i32, mu_cdeg);
-            moves = u32::saturating_add(moves, u32::from(mu_cdeg != before_cdeg));
-            let turn = table.look_up(steady.path_angle_rad, steady.net_mass_kg, mu_cdeg as f32 * RAD_PER_CDEG);
-            error_cdeg -= (turn.turn_rate_rad_s + bias_rad_s) * TICK_S / RAD_PER_CDEG;
-        }
-        (trim, error_cdeg, moves)
-    }
-
-    #[test]
-    fn a_bias_of_the_turn_is_learned_and_the_vehicle_then_flies_straight() {
-        let bias_rad_s = 0.1_f32.to_radians();
-        let (trim, error_cdeg, _) = hold(bias_rad_s, 400);
-        assert!((trim.bias_rad_s() / bias_rad_s - 1.0).abs() < 0.2, "{trim:?}");
-        assert!(error_cdeg.abs() < 2.0 * Parameters::default().heading_deadband_cdeg as f32, "{error_cdeg}");
-        let late_moves = hold(bias_rad_s, 400).2 - hold(bias_rad_s, 200).2;
-        assert!(late_moves <= 10, "{late_moves} moves in 200 periods once it is known");
-    }
-
-    #[test]
-    fn a_learned_bias_stays_within_its_limit() {
-        let limit_rad_s = Parameters::default().turn_bias_limit_mdeg_s as f32 / 10.0 * RAD_PER_CDEG;
-        for bias_deg_s in [2.0_f32, -2.0] {
-            let (trim, ..) = hold(bias_deg_s.to_radians(), 400);
-            assert!(trim.bias_rad_s().abs() <= limit_rad_s, "{trim:?}");
-        }
-    }
-
-    #[test]
-    fn a_turn_ends_well_inside_the_deadband_that_began_it() {
-        let file = file();
-        let table = TrimTable::parse(&file).unwrap();
-        let steady = Steady { path_angle_rad: -0.4, net_mass_kg: 0.25 };
-        let heading_loop = HeadingLoop::new(&Parameters::default());
-        let mut trim = TurnTrim::default();
-        let mut mu_at = |error_cdeg, mu_cdeg| heading_loop.mu_cdeg(&mut trim, &table, &steady, 0, error_cdeg, mu_cdeg);
-        assert_eq!(mu_at(140, 0), 0, "inside the deadband of 1.5° nothing begins");
-        let turning_cdeg = mu_at(3_000, 0);
-        assert_ne!(turning_cdeg, 0);
-        assert_ne!(mu_at(140, turning_cdeg), 0, "the turn goes on");
-        assert_eq!(mu_at(20, turning_cdeg), 0, "and ends");
-    }
-
-    #[test]
-    fn small_errors_are_left_alone_and_large_ones_stay_within_the_limit() {
-        assert_eq!(mu_for(-0.4, 100), 0);
-        assert_eq!(mu_for(-0.4, 17_000), -Parameters::default().mu_limit_cdeg);
-    }
-}
+mod tests;

@@ -57,7 +57,7 @@ parameters! {
     /// Largest correction of the axial position that pitch errors may build up to, µm.
     pitch_trim_limit_um: 0..=100_000, 40_000;
     /// Heading error that is left alone, 0.01°.
-    heading_deadband_cdeg: 10..=3_000, 150;
+    heading_deadband_cdeg: 10..=3_000, 200;
     /// Time in which a heading error shall be gone, s; 0: as short as the gain margin allows, by the trim table.
     heading_time_s: 0..=600, 0;
     /// Time between two heading corrections, s.

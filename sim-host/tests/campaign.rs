@@ -17,7 +17,18 @@ use sim_host::{
 const SENSE: TurnSense = TurnSense { dive: Turn::Left, climb: Turn::Right };
 
 fn fly(water: &str, seeds: u64, threads: usize, sense: TurnSense, current_m_s: f64) -> Vec<Flown> {
-    let file = MissionFile::load("default").unwrap();
+    fly_mission("default", water, seeds, threads, sense, current_m_s)
+}
+
+fn fly_mission(
+    mission: &str,
+    water: &str,
+    seeds: u64,
+    threads: usize,
+    sense: TurnSense,
+    current_m_s: f64,
+) -> Vec<Flown> {
+    let file = MissionFile::load(mission).unwrap();
     let vehicle = Vehicle::load(&file.vehicle).unwrap();
     let bytes = generate(&vehicle, &Envelope::default()).unwrap();
     let table = TrimTable::parse(&bytes).unwrap();
@@ -106,6 +117,20 @@ fn the_baseline_flies_the_default_mission_well() {
         assert!(value(flight, "heading_rms_deg") < 9.0, "seed {}", flight.seed);
         // A minute to move the mass by 0.38 m at 10 mm/s and settle.
         assert!(value(flight, "pitch_settling_s") < 120.0, "seed {}", flight.seed);
+    }
+}
+
+/// Currents that shear turn the vehicle a little all the time: who answers each error moves the mass ever again. Energy is
+/// the scarce thing, so a controller that knows its vehicle must beat fixed gains, and hold the heading that its compass shows.
+#[test]
+fn the_autopilot_moves_the_mass_less_often_than_the_baseline_and_holds_its_heading() {
+    for (mission, water) in [("slow-50", "temperate"), ("slow-200", "tropical"), ("fast-50", "temperate")] {
+        let flown = fly_mission(mission, water, 12, 2, SENSE, 0.0);
+        let mean = |pilot, name| of(&flown, pilot).map(|flight| value(flight, name)).sum::<f64>() / 12.0;
+        let [ours, theirs] = ["autopilot", "baseline"].map(|pilot| mean(pilot, "roll_moves_per_km"));
+        assert!(ours < theirs, "{mission}, {water}: {ours} and {theirs} moves per km");
+        let compass_rms_deg = mean("autopilot", "compass_rms_deg");
+        assert!(compass_rms_deg < 3.0, "{mission}, {water}: {compass_rms_deg}° rms");
     }
 }
 

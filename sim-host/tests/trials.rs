@@ -154,7 +154,7 @@ fn the_command_judges_every_promise_for_machines() {
         assert!(claim.is_some_and(|claim| claim["holds"].is_boolean() && claim["measured"].is_number()), "{claim:?}");
     }
     assert_eq!(answer["trials"].as_array().unwrap().len(), TRIALS.len());
-    // A dive and a climb of each mission.
+    // A dive and a climb of each mission; those in a current glide as the default one does.
     assert_eq!(answer["margins"].as_array().unwrap().len(), 2 * 5);
 }
 

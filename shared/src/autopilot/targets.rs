@@ -20,7 +20,8 @@ impl Autopilot<'_> {
         let (dive, climb) = (config.dive, config.climb);
         let actuators = config.actuators();
         let (lightest_ul, nose_down_um) = (actuators.vbd_ul.max, actuators.r_px_um.max);
-        let straight = |r_px_um, vbd_ul, pitch_cdeg| Targets { r_px_um, mu_cdeg: 0, vbd_ul, pitch_cdeg };
+        let mu_cdeg = config.heading.hanging_cdeg(self.state.mu_target_cdeg);
+        let straight = |r_px_um, vbd_ul, pitch_cdeg| Targets { r_px_um, mu_cdeg, vbd_ul, pitch_cdeg };
         let (dive_trim, climb_trim) = (self.state.dive_trim, self.state.climb_trim);
         match self.state.executive.phase {
             // The antenna sits in the tail: nose down lifts it out of the water.
@@ -69,7 +70,7 @@ impl Autopilot<'_> {
         }
         let trim_um = trim.trim_um;
         if state.navigator.depth_m < HEADING_DEPTH_M || (spiral && surfacing) {
-            state.mu_target_cdeg = 0;
+            state.mu_target_cdeg = config.heading.hanging_cdeg(state.mu_target_cdeg);
             turn.begin();
         } else if ticks_in_phase < TURN_SETTLE_S * TICK_HZ && !surfacing {
             turn.begin();

@@ -5,9 +5,10 @@ use std::{fs, io::Write, num::NonZero, path::PathBuf, thread};
 use serde::Serialize;
 use shared::{parameters::Parameters, table::TrimTable};
 
+use super::envelope::EnvelopeArgs;
 use crate::{
     margins::{self, ENOUGH_GAIN, Envelope, Loop, Margins},
-    table::{self, describe, generate},
+    table::{describe, generate},
     whole_file,
 };
 
@@ -15,6 +16,8 @@ use crate::{
 pub(super) struct Args {
     /// Path of a vehicle file, or the name of an embedded vehicle
     vehicle: String,
+    #[command(flatten)]
+    envelope: EnvelopeArgs,
     /// Also write margins.json and margins.svg into this folder
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -32,7 +35,7 @@ struct Answer<'a> {
 
 pub(super) fn run(args: &Args) -> Result<(), String> {
     let vehicle = super::load_vehicle(&args.vehicle)?;
-    let table_bytes = generate(&vehicle, &table::Envelope::default())?;
+    let table_bytes = generate(&vehicle, &args.envelope.envelope()?)?;
     let table = TrimTable::parse(&table_bytes).map_err(|error| format!("trim table: {}", describe(&error)))?;
     let threads = thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN);
     let envelope = margins::margins(&vehicle, &table, &Parameters::default(), threads)?;
@@ -68,6 +71,12 @@ fn in_words(name: &str, envelope: &Envelope) -> String {
                 None if worst.stable => "less than the delay margin",
                 Some(_) | None => "NOT less than the delay margin",
             }
+        ));
+    }
+    let powerless = envelope.nodes.iter().filter(|node| !node.has_authority).count();
+    if powerless > 0 {
+        lines.push(format!(
+            "heading: no authority at {powerless} nodes: the mass is left alone, no heading is held there"
         ));
     }
     lines.join("\n")

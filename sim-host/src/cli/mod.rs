@@ -3,6 +3,7 @@
 mod campaign;
 mod design;
 mod endurance;
+mod envelope;
 mod fly;
 mod locus;
 mod margins;

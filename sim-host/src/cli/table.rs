@@ -5,8 +5,9 @@ use std::{io::Write, path::PathBuf};
 use serde::Serialize;
 use shared::table::TrimTable;
 
+use super::envelope::EnvelopeArgs;
 use crate::{
-    table::{Envelope, InterpolationError, TableErrors, describe, generate, measure},
+    table::{InterpolationError, TableErrors, describe, generate, measure},
     whole_file,
 };
 
@@ -17,18 +18,8 @@ pub(super) struct Args {
     /// Where the table goes
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
-    /// Flattest and steepest dive, degrees
-    #[arg(long, num_args = 2, value_names = ["FLAT", "STEEP"], default_values_t = Envelope::default().dive_deg)]
-    dive_deg: Vec<f64>,
-    /// Flattest and steepest climb, degrees
-    #[arg(long, num_args = 2, value_names = ["FLAT", "STEEP"], default_values_t = Envelope::default().climb_deg)]
-    climb_deg: Vec<f64>,
-    /// Least and most net mass, kg, of dives; climbs take the same with the other sign
-    #[arg(long, num_args = 2, value_names = ["LEAST", "MOST"], default_values_t = Envelope::default().net_mass_kg)]
-    net_mass_kg: Vec<f64>,
-    /// Largest rotation of the moving mass, degrees
-    #[arg(long, value_name = "DEG", default_value_t = Envelope::default().mu_deg)]
-    mu_deg: f64,
+    #[command(flatten)]
+    envelope: EnvelopeArgs,
     /// One JSON object instead of text
     #[arg(long)]
     json: bool,
@@ -43,14 +34,7 @@ struct Answer {
 
 pub(super) fn run(args: &Args) -> Result<(), String> {
     let vehicle = super::load_vehicle(&args.vehicle)?;
-    let pair = |values: &[f64]| <[f64; 2]>::try_from(values).map_err(|_| "an envelope takes two numbers".to_string());
-    let envelope = Envelope {
-        dive_deg: pair(&args.dive_deg)?,
-        climb_deg: pair(&args.climb_deg)?,
-        net_mass_kg: pair(&args.net_mass_kg)?,
-        mu_deg: args.mu_deg,
-    };
-    let file = generate(&vehicle, &envelope)?;
+    let file = generate(&vehicle, &args.envelope.envelope()?)?;
     let table = TrimTable::parse(&file).map_err(|error| describe(&error))?;
     let errors = measure(&vehicle, &table)?;
     whole_file::write(&args.output, |out| out.write_all(&file))?;

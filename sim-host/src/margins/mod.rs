@@ -68,6 +68,8 @@ pub struct Node {
     pub pitch: Margins,
     /// The heading loop.
     pub heading: Margins,
+    /// Whether the mass turns the vehicle; else the loop leaves it alone, and the heading is not held.
+    pub has_authority: bool,
 }
 
 /// One loop over all nodes.
@@ -168,6 +170,7 @@ pub fn at(vehicle: &Vehicle, table: &TrimTable<'_>, parameters: &Parameters, ste
         speed_m_s: glide.speed_m_s,
         pitch: pitch(&linear, laws).margins()?,
         heading: heading(&linear, &glide, laws).margins()?,
+        has_authority: laws.mu_per_heading() != 0.0,
     })
 }
 

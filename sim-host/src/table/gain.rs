@@ -18,15 +18,16 @@ use crate::{
 const LATERAL: usize = 4;
 const R: usize = 2;
 const PSI: usize = 4;
-/// A gain that is small for any vehicle; gains up to a hundred times it are looked for.
+/// A gain that is small for any vehicle: the search for the critical one begins here.
 const SMALL_GAIN: f64 = 0.2;
-const MOST_GAIN: f64 = 20.0;
+/// Where it ends, a hundred times as far.
+const MOST_GAIN: f64 = 100.0 * SMALL_GAIN;
 /// From an order until the actuator is there, ticks.
 const ACTUATOR_TICKS: usize = 1;
 
 /// The critical gains at the corners of an envelope: of dives and climbs, flattest and steepest, lightest and heaviest.
 ///
-/// Between them the gain is larger than between their values: it has one hump over the path angle and the net mass.
+/// A straight line between two corners lies below the gain of all embedded vehicles: it has one hump in between.
 ///
 /// # Errors
 /// One line: a corner without a glide, or without eigenvalues.

@@ -13,6 +13,8 @@ use crate::{
 
 /// Time after an inflection or a turn's entry from which a leg counts as steady, s.
 const STEADY_AFTER_S: f64 = 120.0;
+/// Depth at which a dive has left the surface, and may turn, m.
+const SUBMERGED_M: f64 = 2.0;
 /// Pitch error within which an inflection counts as over, deg.
 const SETTLED_PITCH_DEG: f64 = 2.0;
 /// A value that stays within its band for so long has settled, s.
@@ -64,7 +66,7 @@ pub const METRICS: &[Metric] = &[
     ),
     metric(
         "heading_rms_deg",
-        "true heading against its target on steady glides, 120 s after they began",
+        "true heading against its target on steady glides, 120 s after they began or left the surface",
         heading_rms_deg,
     ),
     metric(
@@ -106,13 +108,19 @@ fn apogee_error_percent(seen: &Seen<'_>) -> impl Iterator<Item = f64> {
     dives.map(move |leg| 100.0 * (leg.turning_depth_m / target_m - 1.0))
 }
 
-/// The glides, one after another: from the end of one reversal to the begin of the next.
+/// The glides, one after another: from the end of one reversal, or from the surface, to the begin of the next.
 fn glides<'a>(seen: &Seen<'a>) -> impl Iterator<Item = &'a [Sample]> {
     let same = |a: &Sample, b: &Sample| (a.commands.phase, a.commands.yo) == (b.commands.phase, b.commands.yo);
     let is_glide = |samples: &&[Sample]| {
         samples.first().is_some_and(|first| matches!(first.commands.phase, Phase::Dive | Phase::Climb))
     };
-    seen.record.samples.chunk_by(same).filter(is_glide)
+    seen.record.samples.chunk_by(same).filter(is_glide).map(submerged)
+}
+
+/// A glide from where it left the surface: until then a heavy vehicle only waits for the water to take it.
+fn submerged(glide: &[Sample]) -> &[Sample] {
+    let left = glide.iter().position(|sample| sample.truth.position_m.z >= SUBMERGED_M);
+    glide.get(left.unwrap_or(glide.len())..).unwrap_or_default()
 }
 
 /// The steady part of a glide.

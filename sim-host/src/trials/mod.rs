@@ -5,8 +5,10 @@
 
 mod claims;
 mod example;
+mod learning;
 mod models;
 mod page;
+mod pictures;
 mod promises;
 
 use std::{num::NonZero, path::Path};
@@ -82,8 +84,19 @@ pub struct Trials {
     pub claims: Vec<Claim>,
     /// The controller's loops in each mission's glides.
     pub margins: Vec<GlideMargins>,
-    /// A reversal of the first trial, as both pilots fly it.
-    pub example: Figure,
+    /// Single flights, and what is known before one.
+    pub pictures: Vec<Picture>,
+}
+
+/// A figure with a name for its file and a line that says what it shows.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    /// Its file, without extension.
+    pub name: String,
+    /// What it shows.
+    pub about: String,
+    /// The figure.
+    pub figure: Figure,
 }
 
 /// All flights of a trial.
@@ -139,9 +152,8 @@ pub fn run(
     mut landed: impl FnMut(&Flown),
 ) -> Result<Trials, String> {
     let equipped = trials.iter().map(Equipped::new).collect::<Result<Vec<_>, _>>()?;
-    let first = equipped.first().ok_or("no trials to fly")?;
-    let example = first.with_campaign(1, |campaign| example::figure(first.trial.mission, campaign))?;
-    let (of_models, margins) = models::check(&equipped)?;
+    let models::Checked { claims: of_models, margins, envelopes } = models::check(&equipped, threads)?;
+    let pictures = pictures::draw(&equipped, seeds, threads, &envelopes)?;
     let fly = |trial: &Equipped| {
         let flown = trial.with_campaign(seeds, |campaign| campaign::run(campaign, threads, &mut landed))?;
         let Trial { name, mission, current_m_s, .. } = trial.trial;
@@ -151,7 +163,7 @@ pub fn run(
     let flights = equipped.iter().map(fly).collect::<Result<Vec<_>, String>>()?;
     let of_flights = PROMISES.iter().filter_map(|promise| judge(promise, &flights));
     let claims = of_flights.chain(of_models).collect();
-    Ok(Trials { seeds, flights, claims, margins, example })
+    Ok(Trials { seeds, flights, claims, margins, pictures })
 }
 
 impl Equipped {

@@ -1,8 +1,10 @@
 //! What is promised of the models that the autopilot flies by.
 
+use std::num::NonZero;
+
 use super::{Claim, Equipped, GlideMargins, Limit};
 use crate::{
-    margins::{self, ENOUGH_GAIN, Margins},
+    margins::{self, ENOUGH_GAIN, Envelope, Margins, Node},
     reduced_error::{self, Inflection, ModelError},
     table::{BOUND, InterpolationError, TableErrors, measure},
 };
@@ -10,18 +12,30 @@ use crate::{
 /// What is known of a vehicle's table, with the vehicle's name.
 type OfTable = (String, InterpolationError);
 
-/// The claims of all models, and the margins of each mission's glides.
+/// What checking the models came to.
+pub(super) struct Checked {
+    /// What is promised of them.
+    pub(super) claims: Vec<Claim>,
+    /// The loops' margins in each mission's glides.
+    pub(super) margins: Vec<GlideMargins>,
+    /// And over the trim table of each vehicle, with its name.
+    pub(super) envelopes: Vec<(String, Envelope)>,
+}
+
+/// Checks the tables, the reduced model and the loops of all vehicles that fly.
 ///
 /// # Errors
 /// One line: a motion that does not exist.
-pub(super) fn check(equipped: &[Equipped]) -> Result<(Vec<Claim>, Vec<GlideMargins>), String> {
+pub(super) fn check(equipped: &[Equipped], threads: NonZero<usize>) -> Result<Checked, String> {
     let (mut tables, mut glides) = (Vec::<OfTable>::new(), Vec::<GlideMargins>::new());
-    let mut known = Vec::new();
+    let (mut envelopes, mut known) = (Vec::<(String, Envelope)>::new(), Vec::new());
     for one in equipped {
         let (mission, name, table) = (one.trial.mission, &one.vehicle.name, one.table()?);
         if !tables.iter().any(|(known, _)| known == name) {
             let TableErrors { dive, climb } = measure(&one.vehicle, &table)?;
             tables.push((name.clone(), dive.max(&climb)));
+            let envelope = margins::margins(&one.vehicle, &table, &one.file.parameters, threads)?;
+            envelopes.push((name.clone(), envelope));
         }
         for steady in margins::glides(&one.file.mission) {
             // Some missions share their glides.
@@ -34,8 +48,8 @@ pub(super) fn check(equipped: &[Equipped]) -> Result<(Vec<Claim>, Vec<GlideMargi
         }
     }
     let inflections = reduced_error::inflections()?;
-    let claims = of_tables(&tables).chain(of_reduced_model(&inflections)).chain(of_loops(&glides)).flatten();
-    Ok((claims.collect(), glides))
+    let claims = of_tables(&tables).chain(of_reduced_model(&inflections)).chain(of_loops(&envelopes)).flatten();
+    Ok(Checked { claims: claims.collect(), margins: glides, envelopes })
 }
 
 fn of_tables(tables: &[OfTable]) -> impl Iterator<Item = Option<Claim>> {
@@ -68,12 +82,16 @@ fn of_reduced_model(inflections: &[Inflection]) -> impl Iterator<Item = Option<C
     })
 }
 
-fn of_loops(glides: &[GlideMargins]) -> impl Iterator<Item = Option<Claim>> {
-    type Loop = fn(&GlideMargins) -> Margins;
-    let loops: [(&str, Loop); 2] = [("pitch", |glide| glide.node.pitch), ("heading", |glide| glide.node.heading)];
+fn of_loops(envelopes: &[(String, Envelope)]) -> impl Iterator<Item = Option<Claim>> {
+    type Loop = fn(&Node) -> Margins;
+    let loops: [(&str, Loop); 2] = [("pitch", |node| node.pitch), ("heading", |node| node.heading)];
     loops.into_iter().map(|(name, of)| {
-        let over = format!("{} glides", glides.len());
-        let values = glides.iter().map(|glide| (gain(of(glide)), glide.mission.to_owned()));
+        let nodes =
+            || envelopes.iter().flat_map(|(vehicle, envelope)| envelope.nodes.iter().map(move |at| (vehicle, at)));
+        let values = nodes().map(|(vehicle, node)| {
+            (gain(of(node)), format!("{vehicle}, {:.1}°, {:.3} kg", node.path_angle_rad.to_degrees(), node.net_mass_kg))
+        });
+        let over = format!("{} nodes", nodes().count());
         Claim::worst(format!("gain margin of the {name} loop"), Limit::AtLeast(ENOUGH_GAIN), &over, values.collect())
     })
 }

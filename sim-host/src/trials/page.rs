@@ -1,6 +1,6 @@
 //! The trials in words, tables and pictures.
 
-use super::{Claim, Flights, GlideMargins, Trials};
+use super::{Claim, Flights, GlideMargins, Picture, Trials};
 use crate::{
     campaign::{FACTORS, METRICS, Tally, cells, distributions, share},
     document::{Block, Column, Document, Row, Table},
@@ -55,11 +55,16 @@ pub(super) fn document(trials: &Trials) -> Document {
         Block::Text(in_short(&trials.claims)),
         Block::Table(claims(&trials.claims)),
         Block::List(REMARKS.map(str::to_owned).into()),
-        Block::Figure("example".into(), Box::new(trials.example.clone())),
     ];
+    let pictures = trials.pictures.iter().cloned();
+    blocks.extend(
+        pictures
+            .flat_map(|Picture { name, about, figure }| [Block::Text(about), Block::Figure(name, Box::new(figure))]),
+    );
     blocks.extend(trials.flights.iter().flat_map(mission));
     blocks.extend([
         Block::Heading("Stability margins in each mission's glides".into()),
+        Block::Text("Missions of one vehicle that share their glides stand once, by the first of them.".into()),
         Block::Table(margins(&trials.margins)),
         Block::Heading("What the figures mean".into()),
         Block::List(METRICS.iter().map(|metric| format!("{}: {}", metric.name, metric.about)).collect()),

@@ -104,18 +104,29 @@ fn mistakes_are_answered_with_their_place() {
     }
 }
 
-/// What an editor offers and requires is what the reader reads: the default mission, key by key.
+/// What an editor offers and requires is what the reader reads: missions of every kind, key by key.
 #[test]
-fn the_schema_knows_every_key_of_the_default_mission() {
-    let schema = MissionFile::schema();
-    let sections = &schema["properties"];
-    let text = include_str!("../missions/default.toml");
-    let document = text.parse::<toml_edit::DocumentMut>().unwrap();
-    for (section, table) in document.iter().filter_map(|(key, item)| Some((key, item.as_table()?))) {
-        for (key, _) in table.iter() {
-            assert!(sections[section]["properties"][key].is_object(), "{section}.{key}");
+fn the_schema_knows_every_key_of_the_embedded_missions() {
+    fn knows(schema: &serde_json::Value, table: &toml_edit::Table, path: &str) {
+        for (key, item) in table {
+            let property = &schema["properties"][key];
+            assert!(property.is_object(), "{path}{key}");
+            if let Some(section) = item.as_table() {
+                knows(property, section, &format!("{path}{key}."));
+            }
         }
     }
+    let schema = MissionFile::schema();
+    let texts = [
+        include_str!("../missions/default.toml"),
+        include_str!("../missions/drift.toml"),
+        include_str!("../missions/mooring.toml"),
+        WAYPOINTS,
+    ];
+    for text in texts {
+        knows(&schema, &text.parse::<toml_edit::DocumentMut>().unwrap(), "");
+    }
+    let sections = &schema["properties"];
     assert!(sections["mission"]["required"].as_array().unwrap().contains(&"yos".into()));
     let period = &sections["parameters"]["properties"]["pitch_period_s"];
     assert_eq!((&period["minimum"], &period["default"]), (&2.into(), &20.into()));

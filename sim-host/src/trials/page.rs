@@ -50,7 +50,7 @@ pub(super) fn document(trials: &Trials) -> Document {
         Block::Text(flown(trials)),
         Block::Text(DRAWN.into()),
         Block::Text(PILOTS.into()),
-        Block::Code(format!("cargo run --release -- trials --seeds {} # the same numbers again", trials.seeds)),
+        Block::Code(format!("cargo run --release -- trials --seeds {} # the same numbers", trials.seeds)),
         Block::Heading("What is promised, and what is so".into()),
         Block::Text(in_short(&trials.claims)),
         Block::Table(claims(&trials.claims)),
@@ -75,8 +75,8 @@ pub(super) fn document(trials: &Trials) -> Document {
 fn flown(trials: &Trials) -> String {
     let flights: usize = trials.flights.iter().map(|trial| trial.flown.len()).sum();
     format!(
-        "{flights} simulated flights of {} missions, {} seeds each in every water and for either pilot; all stand in \
-         trials.csv, with the {} coefficients that each seed drew.",
+        "{flights} simulated flights of {} missions, {} seeds each in every water and for either pilot. The command below \
+         flies them again, and writes every flight into trials.csv, with the {} coefficients that its seed drew.",
         trials.flights.len(),
         trials.seeds,
         FACTORS.len()

@@ -38,6 +38,8 @@
 //! | closed loops around the linearised plant against the full plant flown by the same laws | `tests/margins.rs` | grows or dies out |
 //! | sampled integrators: margins in closed form | `margins::sampled` | 1e-6: bisection |
 //! | an ellipse of surfacings holds its share of other seeds' | `tests/plan.rs` | three deviations of the counts |
+//! | waypoints across a current, one out of reach, a mooring, a drift | `tests/guidance.rs` | the capture radius; the mooring's |
+//! | surfacings in an unknown current: after one dive, after a turn, after two headings | `tests/surfacing.rs` | 5 % of the way, 20 seeds |
 //! | a promise of the sea trials is judged by its worst water, and can fail | `tests/trials.rs` | counts by hand |
 //! | geometry to coefficients: spheroid, strips, thin plates, scaling; exact derivatives | `tests/coefficients.rs` | 1e-9: quadrature; 1e-7: differences |
 //! | polar, eqs (10)–(13), (17) and the ideal range, against searches and as printed | `tests/performance.rs` | 1e-9; 1e-12: rounding |

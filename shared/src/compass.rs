@@ -50,12 +50,10 @@ impl Compass {
         let rad = |cdeg: i16| f32::from(cdeg) * RAD_PER_CDEG;
         let field = self.axial_field(r_px_um) + self.turned_field(rad(mu_cdeg));
         let (ahead, right) = levelled(&field, rad(attitude.roll_cdeg), rad(attitude.pitch_cdeg));
-        let (sin, cos) = math::sin_cos(f32::from(attitude.heading_cdeg) * RAD_PER_CDEG);
+        let magnetic_cdeg = i32::from(attitude.heading_cdeg).saturating_add(i32::from(self.offset_cdeg));
+        let (sin, cos) = math::sin_cos(magnetic_cdeg as f32 * RAD_PER_CDEG);
         let deviation_cdeg = math::round_to_i32(math::asin(ahead * sin + right * cos) / RAD_PER_CDEG);
-        let heading_cdeg = i32::from(attitude.heading_cdeg)
-            .saturating_add(deviation_cdeg)
-            .saturating_add(i32::from(self.offset_cdeg))
-            .rem_euclid(TURN_CDEG);
+        let heading_cdeg = magnetic_cdeg.saturating_add(deviation_cdeg).rem_euclid(TURN_CDEG);
         u16::try_from(heading_cdeg).unwrap_or(attitude.heading_cdeg)
     }
 

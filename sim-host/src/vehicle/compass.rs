@@ -11,6 +11,8 @@ use crate::toml_file::{Rule, Section};
 
 /// Largest field of the battery over the Earth's: what the table can store; no compass serves beyond 1.
 const MOST_OVER_EARTH: f64 = 3.0;
+/// The Earth's horizontal field has at most 42 µT; no compass serves where it is nearly vertical.
+const EARTH_UT: Rule = Rule::Within(1.0, 45.0);
 
 /// What the controller takes away from the compass's heading.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -29,8 +31,7 @@ impl Compass {
     pub(super) fn read(section: &mut Section<'_>) -> Self {
         let read = Self {
             offset_deg: section.number_or("offset_deg", Rule::Within(-180.0, 180.0), 0.0),
-            // At most 42 µT, near the magnetic equator; no compass serves where it is nearly vertical.
-            earth_ut: section.number("earth_ut", Rule::Within(1.0, 45.0)),
+            earth_ut: section.number("earth_ut", EARTH_UT),
             battery_ut: section.quadruples("battery_ut"),
             turning_ut: section.numbers_or("turning_ut", Rule::Finite, [0.0; 2]),
         };
@@ -39,12 +40,22 @@ impl Compass {
         let right =
             format!("1 to {MOST_POSITIONS} rows of [axial position in m, rising; field ahead, right, below in µT]");
         section.refuse_if(wrong, "battery_ut", &right);
-        let most = format!("at most {MOST_OVER_EARTH} times earth_ut in each direction");
-        let storable =
-            |ut: &[f64]| read.earth_ut.is_nan() || ut.iter().all(|ut| ut.abs() <= MOST_OVER_EARTH * read.earth_ut);
-        section.refuse_if(!read.battery_ut.iter().all(|[_, ut @ ..]| storable(ut)), "battery_ut", &most);
-        section.refuse_if(!storable(&read.turning_ut), "turning_ut", &most);
+        let most = format!("fields of at most {MOST_OVER_EARTH} times earth_ut in each direction");
+        section.refuse_if(read.battery_ut.iter().any(|[_, ut @ ..]| read.drowns(ut)), "battery_ut", &most);
+        section.refuse_if(read.drowns(&read.turning_ut), "turning_ut", &most);
         read
+    }
+
+    /// Whether a file may say so.
+    #[must_use]
+    pub fn is_storable(&self) -> bool {
+        let drowned = self.battery_ut.iter().any(|[_, ut @ ..]| self.drowns(ut)) || self.drowns(&self.turning_ut);
+        EARTH_UT.holds(self.earth_ut) && !drowned
+    }
+
+    /// Whether a field is too large beside the Earth's.
+    fn drowns(&self, ut: &[f64]) -> bool {
+        ut.iter().any(|ut| ut.abs() > MOST_OVER_EARTH * self.earth_ut)
     }
 
     /// The same in the integers that fly.

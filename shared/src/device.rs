@@ -149,7 +149,7 @@ pub struct Learned {
     pub current_east_mm_s: i16,
     /// Speed through the water beyond what is reckoned, 0.1 %.
     pub speed_permille: i16,
-    /// True heading less the compass's, 0.01°.
+    /// True heading less the compass's, as the vehicle's table corrects it, 0.01°.
     pub compass_cdeg: i16,
     /// Turn rate without rotation of the mass on this side, 0.001 °/s, right positive.
     pub turn_bias_mdeg_s: i16,

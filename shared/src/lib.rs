@@ -35,6 +35,7 @@
 extern crate std;
 
 pub mod autopilot;
+pub mod compass;
 pub mod depth_hold;
 pub mod device;
 pub mod estimate;

@@ -31,7 +31,7 @@ pub struct Navigator {
     pub depth_m: f32,
     /// Rate of depth, m/s, down positive.
     pub depth_rate_m_s: f32,
-    /// Last attitude.
+    /// Last attitude, its heading as the vehicle's table corrects it.
     pub attitude: Attitude,
     /// Tick of the last fresh depth, once there was one.
     pub depth_tick: Option<u32>,
@@ -104,7 +104,8 @@ impl Navigator {
     pub fn update(&mut self, vehicle: &FlightVehicle, tick: u32, measurements: &Measurements, afloat: bool) {
         self.take_pressure(vehicle, tick, measurements.pressure_pa);
         if let Some(attitude) = measurements.attitude {
-            self.attitude = attitude;
+            let heading_cdeg = vehicle.compass.heading_cdeg(&attitude, measurements.r_px_um, measurements.mu_cdeg);
+            self.attitude = Attitude { heading_cdeg, ..attitude };
             self.attitude_tick = Some(tick);
         }
         if afloat {
@@ -142,7 +143,7 @@ impl Navigator {
         &self.drift
     }
 
-    /// Heading, with the compass's error as far as it is known, 0.01°.
+    /// Heading, with what was learned of the compass's error, 0.01°.
     #[must_use]
     pub fn heading_cdeg(&self) -> i32 {
         let learned_cdeg = math::round_to_i32(self.drift.compass_rad() / RAD_PER_CDEG);
@@ -300,7 +301,10 @@ fn rotation(phi: f32, theta: f32, psi: f32) -> Matrix3<f32> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::table::{TrimTable, tests::file};
+    use crate::{
+        compass::AxialField,
+        table::{TrimTable, tests::file},
+    };
 
     fn at(pressure_pa: i32, heading_cdeg: u16) -> Measurements {
         Measurements {
@@ -402,6 +406,23 @@ mod tests {
             navigator.update(table.vehicle(), 0, &at(981_000, 0), false);
             assert!((navigator.depth_m - depth_m).abs() < 1e-3, "{} m", navigator.depth_m);
         }
+    }
+
+    /// On north a field of half the Earth's to the right turns the compass to the left by atan ½.
+    #[test]
+    fn the_vehicles_table_corrects_what_is_steered_and_what_is_reckoned_by() {
+        let file = file();
+        let table = TrimTable::parse(&file).unwrap();
+        let mut vehicle = table.vehicle().clone();
+        vehicle.compass.axial.push(AxialField { r_px_um: 0, field: [0, 5_000, 0] }).unwrap();
+        let mut navigator = Navigator::default();
+        for tick in 0..4_000 {
+            navigator.update(&vehicle, tick, &at(0, 33_343), false);
+        }
+        let (north_mm, east_mm) = navigator.position_mm();
+        // The reading is rounded, and so is the correction.
+        assert!(math::wrap_cdeg(navigator.heading_cdeg()).abs() <= 1, "{}", navigator.heading_cdeg());
+        assert!(north_mm > 100_000 && east_mm.abs() < north_mm / 1_000, "{north_mm} mm north, {east_mm} mm east");
     }
 
     /// An hour's dive to the east in a current: the fix after it teaches the current, and the next dive reckons with it.

@@ -3,7 +3,7 @@
 use heapless::String;
 use serde::{Deserialize, Serialize};
 
-use crate::{device::UL_PER_M3, math};
+use crate::{compass::Compass, device::UL_PER_M3, math};
 
 /// Constants of one vehicle, written into its trim table by the generator and never typed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -26,6 +26,8 @@ pub struct FlightVehicle {
     /// [`GAIN_PERIOD_S`](crate::heading::GAIN_PERIOD_S) swings ever more, at the corners of the table:
     /// `[dives, climbs][flattest, steepest][least, most net mass]`; 0 where the loop settles with no gain.
     pub critical_heading_gain: [[[f32; 2]; 2]; 2],
+    /// How the moving battery deflects the compass.
+    pub compass: Compass,
 }
 
 impl FlightVehicle {

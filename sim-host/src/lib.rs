@@ -30,6 +30,7 @@
 //! | straight glides, turns and modes of 50 random lopsided vehicles, or one clear refusal | `tests/asymmetric.rs` | 1e-8 N |
 //! | trim tables against exact trim, middles of all cells and random points | `tests/table.rs` | 0.5 % of speed, 0.2° of pitch, 2 % of turn rate |
 //! | the reduced model, f32 and fixed point, against the plant | `tests/reduced.rs` | 1e-4 m/s and 0.01 m through an inflection |
+//! | a swung compass: made-up fields found again, heading held in flight by the table | `tests/swing.rs` | readings of 0.01°; the heading loop's deadband |
 //! | electrical energy of the pump over p ΔV | `tests/devices.rs` | fielded efficiencies; 1e-9 for p ΔV itself |
 //! | every abort: its fault is noticed in time, and the vehicle comes back | `tests/aborts.rs` | when the fault can be seen |
 //! | a dive turns above a sloping floor by the altimeter | `tests/ocean.rs` | 3 m of the height asked for |
@@ -80,6 +81,7 @@ pub mod record;
 pub mod reduced_error;
 pub mod report;
 pub mod sensitivity;
+pub mod swing;
 pub mod table;
 pub mod toml_file;
 pub mod trials;

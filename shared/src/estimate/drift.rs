@@ -61,7 +61,7 @@ impl Drift {
         self.state.z
     }
 
-    /// True heading less the compass's, rad.
+    /// True heading less the compass's, as the vehicle's table corrects it, rad.
     #[must_use]
     pub fn compass_rad(&self) -> f32 {
         self.state.w

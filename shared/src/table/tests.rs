@@ -1,7 +1,7 @@
 //! A made-up vehicle's table: written, read, looked up, refused.
 
 use super::*;
-use crate::{reduced::tests::SLOCUM, vehicle::Actuators};
+use crate::{compass::Compass, reduced::tests::SLOCUM, vehicle::Actuators};
 use std::vec::Vec;
 
 fn vehicle() -> FlightVehicle {
@@ -22,6 +22,7 @@ fn vehicle() -> FlightVehicle {
         working_depth_mm: 200_000,
         glide: SLOCUM,
         critical_heading_gain: [[[9.0; 2]; 2]; 2],
+        compass: Compass::default(),
     }
 }
 

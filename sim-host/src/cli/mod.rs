@@ -15,6 +15,7 @@ mod schema;
 mod sensitivity;
 mod size;
 mod stability;
+mod swing;
 mod table;
 mod trials;
 mod trim;
@@ -71,6 +72,8 @@ enum Command {
     Endurance(endurance::Args),
     /// Generate the trim table that flies
     Table(table::Args),
+    /// Swing the compass on the pier: its errors over the battery's position, as the vehicle file's section [compass]
+    Swing(swing::Args),
     /// Draw a three-view to scale and the forces of a steady glide, as SVG
     Draw(trim::DrawArgs),
     /// Print the JSON Schema of a kind of file, for editors that complete and check it
@@ -108,6 +111,7 @@ pub fn main() -> ExitCode {
         Command::Size(args) => size::run(&args),
         Command::Endurance(args) => endurance::run(&args),
         Command::Table(args) => table::run(&args),
+        Command::Swing(args) => swing::run(&args),
         Command::Draw(args) => trim::draw(&args),
         Command::Schema(args) => schema::run(&args),
         Command::Eval(args) => run_eval(&args),

@@ -9,7 +9,7 @@ mod summary;
 pub use actuators::EnergyUsed;
 pub use battery::Cells;
 pub use faults::{Actuator, Drain, Dropout, Faults, Instrument, Seep, Stuck};
-pub use sensors::{AltimeterErrors, CompassErrors, HousekeepingErrors, PressureErrors, SensorErrors};
+pub use sensors::{AltimeterErrors, CompassErrors, HousekeepingErrors, PierCompass, PressureErrors, SensorErrors};
 pub use summary::{Loss, NorthEast, Outcome, Summary, Surfacing, TraceHash};
 
 use nalgebra::Vector3;

@@ -3,7 +3,7 @@
 use shared::vehicle::{Actuators, FlightVehicle, GlideConstants, Range};
 
 use super::{Envelope, gain::critical_heading_gains, lag::turn_lengths_m};
-use crate::vehicle::Vehicle;
+use crate::vehicle::{Compass, Vehicle};
 
 /// What the controller must know of the vehicle, for flights in an envelope.
 ///
@@ -50,5 +50,6 @@ pub fn flight_vehicle(vehicle: &Vehicle, envelope: &Envelope) -> Result<FlightVe
             turn_length_m: turn_lengths_m(vehicle, envelope)?.map(|length_m| length_m as f32),
         },
         critical_heading_gain: critical_heading_gains(vehicle, envelope)?,
+        compass: vehicle.compass.as_ref().map(Compass::flown).unwrap_or_default(),
     })
 }

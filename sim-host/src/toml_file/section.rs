@@ -228,6 +228,12 @@ impl Section<'_> {
         self.required(key, "rows of 3 finite numbers", rows).unwrap_or_default()
     }
 
+    /// Rows of four numbers.
+    pub fn quadruples(&mut self, key: &'static str) -> Vec<[f64; 4]> {
+        self.describe(key, true, || schema::rows(4));
+        self.required(key, "rows of 4 finite numbers", rows).unwrap_or_default()
+    }
+
     /// Refuses the value of a key for what several values show together.
     pub fn refuse_if(&mut self, wrong: bool, key: &'static str, right: &str) {
         if wrong {

@@ -10,11 +10,12 @@
 //! nominal speed and the mean of dive and climb.
 //!
 //! `[buoyancy]` may say how its engine is built and `[moving_mass]` how it is driven: [`super::Engine`] and [`super::Drive`].
+//! `[compass]` may say how the battery deflects it: [`super::Compass`].
 
 use nalgebra::{Matrix3, Matrix6, Vector3};
 
 use super::{
-    AddedMass, Body, Buoyancy, Crossflow, Drive, Elasticity, Energy, Engine, Fin, Hull, Hydrodynamics, Limits,
+    AddedMass, Body, Buoyancy, Compass, Crossflow, Drive, Elasticity, Energy, Engine, Fin, Hull, Hydrodynamics, Limits,
     MomentFrame, MovingMass, Vehicle, Water, Wing, plan_area_m2, side_area_m2,
 };
 use crate::{
@@ -88,6 +89,7 @@ fn vehicle(file: &mut Section<'_>) -> Vehicle {
         buoyancy: file.optional_section("buoyancy", buoyancy),
         energy: file.optional_section("energy", energy),
         limits: file.optional_section("limits", limits),
+        compass: file.optional_section("compass", Compass::read),
         water,
         hull,
         wing,

@@ -1,11 +1,13 @@
 //! A vehicle: what its file says, in SI units.
 
+mod compass;
 mod drive;
 mod engine;
 mod file;
 mod geometry;
 mod hash;
 
+pub use compass::Compass;
 pub use drive::{AxialDrive, Drive, RotationDrive};
 pub use engine::{Engine, EngineKind};
 pub use geometry::{plan_area_m2, side_area_m2};
@@ -42,6 +44,8 @@ pub struct Vehicle {
     pub energy: Option<Energy>,
     /// How deep it may go; needed only to fly.
     pub limits: Option<Limits>,
+    /// How the battery deflects the compass; without it nothing is corrected.
+    pub compass: Option<Compass>,
     /// The water of the static analyses.
     pub water: Water,
 }

@@ -51,6 +51,11 @@ impl Compass {
         }
     }
 
+    /// Lets its filter come to rest: the next reading has no lag.
+    pub(super) fn settle(&mut self) {
+        self.filtered_rad = None;
+    }
+
     /// What it shows.
     pub(super) fn read(&mut self, state: &State<f64>, noise: &mut Noise) -> Attitude {
         let errors = self.errors;

@@ -6,9 +6,11 @@ mod compass;
 mod errors;
 mod housekeeping;
 mod noise;
+mod pier;
 mod pressure;
 
 pub use errors::{AltimeterErrors, CompassErrors, HousekeepingErrors, PressureErrors, SensorErrors};
+pub use pier::PierCompass;
 
 use shared::device::{GpsFix, Measurements};
 

@@ -76,6 +76,7 @@ pub mod plant;
 pub mod real;
 pub mod record;
 pub mod reduced_error;
+pub mod replay;
 pub mod report;
 pub mod sensitivity;
 pub mod table;

@@ -32,6 +32,7 @@
 //! | the reduced model, f32 and fixed point, against the plant | `tests/reduced.rs` | 1e-4 m/s and 0.01 m through an inflection |
 //! | electrical energy of the pump over p ΔV | `tests/devices.rs` | fielded efficiencies; 1e-9 for p ΔV itself |
 //! | every abort: its fault is noticed in time, and the vehicle comes back | `tests/aborts.rs` | when the fault can be seen |
+//! | a record replays to the same commands; a changed, cut or foreign one is told with its place | `tests/replay.rs` | the same bits |
 //! | a dive turns above a sloping floor by the altimeter | `tests/ocean.rs` | 3 m of the height asked for |
 //! | pressure in the hull by the gas law, echoes by beam and range | `flight::sensors` | 1e-12 relative; whole steps |
 //! | linearisation by dual numbers against central differences | `tests/stability.rs` | 1e-7 relative: the differences' own error |

@@ -30,7 +30,7 @@ pub(super) fn run(args: &Args) -> Result<(), String> {
     let file = File::open(&args.log).map_err(|error| format!("{log}: {error}"))?;
     let table = args.table.clone().unwrap_or_else(|| args.log.with_extension("table"));
     let bytes = fs::read(&table)
-        .map_err(|error| format!("{}: {error}; --table names the trim table that flew the log", table.display()))?;
+        .map_err(|error| format!("{}: {error}; --table names the trim table that flew it", table.display()))?;
     let table = TrimTable::parse(&bytes).map_err(|error| format!("{}: {}", table.display(), describe(&error)))?;
     let replayed = replay(BufReader::new(file), &table).map_err(|error| format!("{log}: {error}"))?;
     if args.json {

@@ -100,9 +100,9 @@ fn misplaced(frame: &Frame, awaited: impl Display) -> BadFrame {
         Message::Hello(_) => "a hello".into(),
         Message::Configure(_) => "a configuration".into(),
         Message::Ready => "an acceptance".into(),
-        Message::Refused(refusal) => format!("a refusal, {refusal:?},"),
+        Message::Refused(refusal) => format!("a refusal, {refusal:?}"),
         Message::Sensors(frame) => format!("the measurements of tick {}", frame.tick),
         Message::Actuators(frame) => format!("the commands of tick {}", frame.tick),
     };
-    BadFrame { at_byte: frame.at_byte, what: format!("{awaited}: {found} stand here instead") }
+    BadFrame { at_byte: frame.at_byte, what: format!("{awaited}: the log has {found} here") }
 }

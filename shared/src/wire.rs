@@ -25,11 +25,12 @@ use crate::{
 pub const PROTOCOL: u16 = 1;
 /// Bytes of the longest frame, its COBS overhead and delimiter included.
 pub const MAX_FRAME: usize = 512;
+/// Ends every frame, and stands nowhere in one.
+pub const DELIMITER: u8 = 0;
 
 const CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
 const SCHEMA_BYTES: usize = 4;
 const CRC_BYTES: usize = 4;
-const DELIMITER: u8 = 0;
 
 /// CRC-32 (ISO-HDLC) of frames and tables.
 #[must_use]

@@ -33,6 +33,7 @@
 //! | a swung compass: made-up fields found again, heading held in flight by the table | `tests/swing.rs` | readings of 0.01°; the heading loop's deadband |
 //! | electrical energy of the pump over p ΔV | `tests/devices.rs` | fielded efficiencies; 1e-9 for p ΔV itself |
 //! | every abort: its fault is noticed in time, and the vehicle comes back | `tests/aborts.rs` | when the fault can be seen |
+//! | a record replays to the same commands; a changed, cut or foreign one is told with its place | `tests/replay.rs` | the same bits |
 //! | a dive turns above a sloping floor by the altimeter | `tests/ocean.rs` | 3 m of the height asked for |
 //! | pressure in the hull by the gas law, echoes by beam and range | `flight::sensors` | 1e-12 relative; whole steps |
 //! | linearisation by dual numbers against central differences | `tests/stability.rs` | 1e-7 relative: the differences' own error |
@@ -79,6 +80,7 @@ pub mod plant;
 pub mod real;
 pub mod record;
 pub mod reduced_error;
+pub mod replay;
 pub mod report;
 pub mod sensitivity;
 pub mod swing;

@@ -35,7 +35,7 @@ pub fn briefed(parameters: &Parameters, mission: &Mission, ocean: &Ocean, water:
     Parameters { water_density_kg_m3: density_kg_m3.round() as i32, ..*parameters }
 }
 
-/// The mission as this vehicle flies it, and the autopilot that will, briefed with the chart.
+/// The mission as this vehicle flies it, briefed with the chart, and the autopilot that will.
 ///
 /// # Errors
 /// One line with what of the mission cannot be flown.
@@ -45,9 +45,9 @@ pub fn ready<'a>(
     table: &TrimTable<'a>,
     ocean: &Ocean,
 ) -> Result<(MissionFile, Autopilot<'a>), String> {
-    let file = asked.resolve(table).map_err(|error| error.to_string())?;
-    let parameters = briefed(&file.parameters, &file.mission, ocean, &flying.vehicle.water);
-    let autopilot = autopilot(table, &file, &parameters)?;
+    let mut file = asked.resolve(table).map_err(|error| error.to_string())?;
+    file.parameters = briefed(&file.parameters, &file.mission, ocean, &flying.vehicle.water);
+    let autopilot = autopilot(table, &file, &file.parameters)?;
     file.check_energy(flying, table).map_err(|error| error.to_string())?;
     Ok((file, autopilot))
 }

@@ -8,6 +8,7 @@ use std::{
 };
 
 use serde_json::Value;
+use shared::wire::{Decoder, MAX_FRAME, Message, encode};
 
 fn glider(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_glider")).args(arguments).output().unwrap()
@@ -154,6 +155,46 @@ fn fly_writes_a_folder_and_the_same_bits_every_time() {
         for file in ["report.html", "record.parquet"] {
             assert!(fs::metadata(out.join(file)).unwrap().len() > 10_000, "{file}");
         }
+    });
+}
+
+#[test]
+fn a_flown_folder_replays_and_a_changed_log_does_not() {
+    in_folder(|folder| {
+        let path = |name: &str| folder.join(name).to_str().unwrap().to_owned();
+        let flown = json(&glider(&["fly", "slow-50", "--json", "--out", &path("")]));
+        let replayed = json(&glider(&["replay", &path("flight.frames"), "--json"]));
+        assert_eq!(replayed["same"], true);
+        assert_eq!((&replayed["ticks"], &replayed["trace_hash"]), (&flown["ticks"], &flown["trace_hash"]));
+
+        let line = refusal(&glider(&["replay", &path("record.csv")]));
+        assert!(
+            line.contains("record.table: ") && line.ends_with("--table names the trim table that flew it"),
+            "{line}"
+        );
+        let with_table = |log: &str, more: &[&str]| {
+            glider(&[&["replay", &path(log), "--table", &path("flight.table")], more].concat())
+        };
+        let line = refusal(&with_table("record.csv", &[]));
+        assert!(line.contains("record.csv: byte 0: hello: no end of a frame within 512 bytes"), "{line}");
+
+        // The last answer once more, with another command: the position 1 mm farther north.
+        let mut frames: Vec<Vec<u8>> =
+            fs::read(path("flight.frames")).unwrap().split_inclusive(|byte| *byte == 0).map(<[u8]>::to_vec).collect();
+        let last = frames.pop().unwrap();
+        let mut decoder = Decoder::default();
+        let (header, mut message) = last.iter().find_map(|byte| decoder.push(*byte)).unwrap().unwrap();
+        let Message::Actuators(answer) = &mut message else { panic!("{message:?}") };
+        answer.commands.north_mm += 1;
+        let tick = answer.tick;
+        frames.push(encode(&header, &message, &mut [0; MAX_FRAME]).unwrap().to_vec());
+        fs::write(path("changed.frames"), frames.concat()).unwrap();
+        let line = refusal(&with_table("changed.frames", &[]));
+        assert!(line.contains(&format!(": tick {tick} (")) && line.contains("`north_mm` was "), "{line}");
+        let output = with_table("changed.frames", &["--json"]);
+        assert!(!output.status.success());
+        let answer: Value = serde_json::from_slice(&output.stdout).unwrap();
+        assert_eq!((&answer["same"], &answer["difference"]["tick"]), (&Value::from(false), &Value::from(tick)));
     });
 }
 

@@ -7,7 +7,7 @@ use std::{
 };
 
 use serde::Serialize;
-use shared::table::TrimTable;
+use shared::{table::TrimTable, wire::Configuration};
 
 use super::progress::Progress;
 use crate::{
@@ -44,7 +44,7 @@ pub(super) struct Args {
     /// weak-battery, stuck-pump. What goes wrong, and how large the errors of the instruments are
     #[arg(long, value_name = "FAULTS", default_value = "none")]
     faults: String,
-    /// Folder for report, record and summary
+    /// Folder for report, record, summary, and the frames and trim table that `glider replay` takes
     #[arg(long, value_name = "DIR", default_value = "dive")]
     out: PathBuf,
     /// One JSON object instead of text
@@ -86,6 +86,9 @@ pub(super) fn run(args: &Args) -> Result<(), String> {
     let flight = Flight { vehicle: &vehicle, mission: &file.mission, record: &record, summary: &summary };
     let answer = Answer { faults: &args.faults, summary: &summary };
     write_folder(&args.out, &flight, &answer)?;
+    let configuration = Configuration { mission: file.mission.clone(), parameters: file.parameters };
+    record.write_frames(&args.out.join("flight.frames"), vehicle.hash(), &configuration)?;
+    whole_file::write(&args.out.join("flight.table"), |file| file.write_all(&table_bytes))?;
     if args.json { super::print_json(&answer) } else { super::print(&describe_flight(args, &summary)) }
 }
 

@@ -11,6 +11,7 @@ mod paper;
 mod plan;
 mod polar;
 mod progress;
+mod replay;
 mod schema;
 mod sensitivity;
 mod size;
@@ -42,6 +43,8 @@ struct Cli {
 enum Command {
     /// Fly a mission, controller in the loop, and report on it
     Fly(fly::Args),
+    /// Replay a recorded flight: does the controller still command what it commanded, bit for bit?
+    Replay(replay::Args),
     /// Plan a mission: how long, how much energy, and where the vehicle will surface, with an ellipse of uncertainty
     Plan(plan::Args),
     /// Fly a mission with many vehicles, each a little off its file, and compare the autopilot with a classical controller
@@ -96,6 +99,7 @@ struct EvalArgs {
 pub fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Fly(args) => fly::run(&args),
+        Command::Replay(args) => replay::run(&args),
         Command::Plan(args) => plan::run(&args),
         Command::Campaign(args) => campaign::run(&args),
         Command::Trials(args) => trials::run(&args),

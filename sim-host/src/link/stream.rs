@@ -26,6 +26,7 @@ pub struct Stream {
     arrived: VecDeque<Message>,
     sequence: u32,
     hung_up: bool,
+    log: Option<File>,
 }
 
 impl Stream {
@@ -39,6 +40,7 @@ impl Stream {
             arrived: VecDeque::new(),
             sequence: 0,
             hung_up: false,
+            log: None,
         }
     }
 
@@ -50,6 +52,16 @@ impl Stream {
         socket.set_nonblocking(true)?;
         let to_firmware = socket.try_clone()?;
         Ok(Self::new(OwnedFd::from(socket).into(), OwnedFd::from(to_firmware).into()))
+    }
+
+    /// Writes down what both sides say from now on, byte for byte as it passes: it replays if it is the whole flight.
+    pub fn log_to(&mut self, file: File) {
+        self.log = Some(file);
+    }
+
+    fn log(&mut self, bytes: &[u8]) -> Result<(), String> {
+        let Some(file) = &mut self.log else { return Ok(()) };
+        file.write_all(bytes).map_err(|error| format!("the log of the link: {error}"))
     }
 
     /// Sends one message.
@@ -67,8 +79,9 @@ impl Stream {
     /// Sends bytes as they are, damaged frames for instance.
     ///
     /// # Errors
-    /// One line: the link is gone.
+    /// One line: the link is gone, or its log cannot be written.
     pub fn send_bytes(&mut self, bytes: &[u8]) -> Result<(), String> {
+        self.log(bytes)?;
         self.to_firmware.write_all(bytes).map_err(|error| format!("the link to the firmware broke: {error}"))
     }
 
@@ -101,7 +114,9 @@ impl Stream {
             Err(error) if error.kind() == ErrorKind::WouldBlock => return Ok(false),
             Err(error) => return Err(format!("the link to the firmware broke: {error}")),
         };
-        for byte in &chunk[..received] {
+        let received = &chunk[..received];
+        self.log(received)?;
+        for byte in received {
             match self.decoder.push(*byte) {
                 Some(Ok((_, message))) => self.arrived.push_back(message),
                 Some(Err(Damage::OtherSchema(theirs))) => {
@@ -142,7 +157,10 @@ impl Stream {
 
 #[cfg(test)]
 mod tests {
+    use std::io::{BufReader, Seek, SeekFrom};
+
     use super::*;
+    use crate::record::Frames;
 
     const SHORT: Duration = Duration::from_millis(50);
 
@@ -166,6 +184,21 @@ mod tests {
         assert!(ours.receive(SHORT).is_err());
         theirs.send_bytes(end).unwrap();
         assert_eq!(ours.receive(SHORT), Ok(Message::Ready));
+    }
+
+    #[test]
+    fn a_log_holds_both_sides_in_the_order_in_which_they_spoke() {
+        let (mut ours, theirs) = pair();
+        let mut theirs = Stream::from_socket(theirs).unwrap();
+        let mut log = tempfile::tempfile().unwrap();
+        ours.log_to(log.try_clone().unwrap());
+        let said = [Message::Ready, Message::Refused(shared::wire::Refusal::OutOfOrder)];
+        ours.send(&said[0]).unwrap();
+        theirs.send(&said[1]).unwrap();
+        ours.receive(SHORT).unwrap();
+        log.seek(SeekFrom::Start(0)).unwrap();
+        let read: Vec<_> = Frames::new(BufReader::new(log)).map(|frame| frame.unwrap().message).collect();
+        assert_eq!(read, said);
     }
 
     #[test]

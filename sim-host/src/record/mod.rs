@@ -2,12 +2,14 @@
 
 mod columns;
 mod csv;
+mod frames;
 mod parquet;
 
 use nalgebra::Vector3;
 use shared::device::{Commands, Measurements};
 
 pub use columns::{COLUMNS, Column, Value};
+pub use frames::{BadFrame, Frame, Frames};
 
 use crate::{
     flight::{EnergyUsed, TICK_S, Tick},

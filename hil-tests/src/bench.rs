@@ -1,6 +1,9 @@
 //! One firmware in one emulator, in a scratch folder.
 
-use std::path::{Path, PathBuf};
+use std::{
+    fs::File,
+    path::{Path, PathBuf},
+};
 
 use sim_host::link::{Emulator, FirmwarePilot, Machine, Stream};
 use tempfile::TempDir;
@@ -31,13 +34,14 @@ impl Bench {
         Self { stream, emulator, image, folder }
     }
 
-    /// Gives the firmware a dive to fly. The scratch folder and the image stay, to look at afterwards.
+    /// Gives the firmware a dive to fly, and logs the link. The scratch folder and the image stay, to look at afterwards.
     ///
     /// # Panics
     /// If the firmware does not take it.
     #[must_use]
-    pub fn pilot(self, dive: &Dive) -> (FirmwarePilot, Traces) {
+    pub fn pilot(mut self, dive: &Dive) -> (FirmwarePilot, Traces) {
         let traces = Traces { image: self.image, folder: self.folder };
+        self.stream.log_to(File::create(traces.frames()).expect("a log in the scratch folder"));
         let pilot =
             FirmwarePilot::connect(self.stream, Some(self.emulator), dive.vehicle_hash(), &dive.configuration());
         (pilot.unwrap_or_else(|error| panic!("{error}; log: {:#?}", traces.log())), traces)
@@ -62,6 +66,12 @@ impl Traces {
     #[must_use]
     pub fn log(&self) -> Vec<String> {
         read_log(&self.image, self.folder.path())
+    }
+
+    /// What went over the link.
+    #[must_use]
+    pub fn frames(&self) -> PathBuf {
+        self.folder().join("flight.frames")
     }
 
     /// The scratch folder.

@@ -52,6 +52,12 @@ impl Dive {
         Configuration { mission: self.file.mission.clone(), parameters: self.file.parameters }
     }
 
+    /// The table that flies.
+    #[must_use]
+    pub const fn table(&self) -> &TrimTable<'static> {
+        &self.table
+    }
+
     /// Fingerprint of the vehicle.
     #[must_use]
     pub fn vehicle_hash(&self) -> u64 {

@@ -1,6 +1,6 @@
-//! The real firmware flies the plant, and commands what the linked autopilot commands, bit for bit.
+//! The real firmware flies the plant, and commands what the linked autopilot commands, bit for bit; its link's log replays.
 
-use std::time::Instant;
+use std::{fs::File, io::BufReader, time::Instant};
 
 use hil_tests::{
     bench::{Bench, Traces},
@@ -10,6 +10,7 @@ use hil_tests::{
 use sim_host::{
     flight::{Outcome, Summary},
     link::{FirmwarePilot, Machine},
+    replay::replay,
 };
 
 /// Instructions that a step may take, in the median and at worst: 0.5 % and 1.5 % of a tick at 16 MHz.
@@ -33,6 +34,9 @@ fn fly_both(machine: Machine, bin: &str, dive: &Dive) -> (FirmwarePilot, Traces)
     ));
     assert_eq!(figures(&emulated), figures(&linked));
     assert_eq!(emulated.outcome, Outcome::Completed);
+    let replayed = replay(BufReader::new(File::open(traces.frames()).unwrap()), dive.table()).unwrap();
+    assert_eq!((replayed.difference, replayed.ticks), (None, emulated.ticks));
+    assert_eq!((replayed.board.as_str(), &replayed.trace_hash), (board.as_str(), &emulated.trace_hash));
     (twins.firmware, traces)
 }
 

@@ -6,7 +6,7 @@ use super::{Grid, Node, QUANTITIES, TrimTable};
 use crate::{math, vehicle::FlightVehicle, wire::crc32};
 
 /// Version of the file format.
-pub const VERSION: u16 = 3;
+pub const VERSION: u16 = 4;
 /// What a stored value goes up to.
 pub(super) const FULL_SCALE: f32 = 32_767.0;
 

@@ -99,6 +99,8 @@ struct State {
     r_px_move: Move,
     mu_move: Move,
     vbd_move: Move,
+    /// Whether the axial drive ran in the last tick, or waited for its turn.
+    r_px_wanted: bool,
     turns: Turns,
 }
 
@@ -184,6 +186,7 @@ impl<'a> Autopilot<'a> {
         let coming_up = matches!(state.executive.phase, Phase::Surfacing | Phase::Recovery);
         let [r_px_runs, vbd_runs, mu_runs] = state.turns.take(&config.table.vehicle().power, rates, coming_up);
         let [r_px_rate, vbd_rate, mu_rate] = rates;
+        state.r_px_wanted = r_px_rate != 0;
         let r_px_rate = allowed(r_px_runs, r_px_rate, r_px, &mut state.r_px_move);
         let vbd_rate = allowed(vbd_runs, vbd_rate, vbd, &mut state.vbd_move);
         let mu_rate = allowed(mu_runs, mu_rate, mu, &mut state.mu_move);

@@ -43,6 +43,7 @@ pub mod guidance;
 pub mod heading;
 pub mod math;
 pub mod mission;
+pub mod motors;
 pub mod navigator;
 pub mod number;
 pub mod parameters;

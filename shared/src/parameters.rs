@@ -53,7 +53,7 @@ parameters! {
     /// Part of a pitch error that one correction takes away, %.
     pitch_gain_percent: 0..=150, 60;
     /// Time between two pitch corrections, s.
-    pitch_period_s: 2..=300, 20;
+    pitch_period_s: 2..=300, 40;
     /// Largest correction of the axial position that pitch errors may build up to, µm.
     pitch_trim_limit_um: 0..=100_000, 40_000;
     /// Heading error that is left alone, 0.01°.

@@ -18,6 +18,8 @@ pub struct FlightVehicle {
     pub gravity_m_s2: f32,
     /// Drives of mass and buoyancy.
     pub actuators: Actuators,
+    /// What they draw.
+    pub power: MotorPower,
     /// Depth to which missions may be planned, mm.
     pub working_depth_mm: i32,
     /// Longitudinal flight dynamics, for the reduced model.
@@ -75,6 +77,41 @@ pub struct Actuators {
     pub pump_rate_ul_s: i32,
     /// Fastest bleeding, µl/s (makes the vehicle heavier).
     pub bleed_rate_ul_s: i32,
+}
+
+/// What each motor draws at most, and what the supply bears, mW.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct MotorPower {
+    /// Axial drive of the moving mass.
+    pub r_px_mw: u32,
+    /// Its rotation drive.
+    pub mu_mw: u32,
+    /// Pump, against any pressure that the hull bears.
+    pub pump_mw: u32,
+    /// What draws a piston back or holds a valve open.
+    pub bleed_mw: u32,
+    /// Most that motors may draw together; nothing: no limit.
+    pub peak_mw: Option<u32>,
+}
+
+impl MotorPower {
+    /// What the axial drive, the buoyancy device and the rotation drive draw at some rates, in this order, mW.
+    #[must_use]
+    pub const fn draws_mw(&self, [r_px_rate, vbd_rate, mu_rate]: [i32; 3]) -> [u32; 3] {
+        let buoyancy_mw = if vbd_rate > 0 { self.pump_mw } else { self.bleed_mw };
+        [
+            if r_px_rate == 0 { 0 } else { self.r_px_mw },
+            if vbd_rate == 0 { 0 } else { buoyancy_mw },
+            if mu_rate == 0 { 0 } else { self.mu_mw },
+        ]
+    }
+
+    /// Whether the axial drive must stand while the buoyancy device runs at some rate.
+    #[must_use]
+    pub fn bears_no_pitching_at(&self, vbd_rate: i32) -> bool {
+        let [r_px_mw, vbd_mw, _] = self.draws_mw([1, vbd_rate, 0]);
+        self.peak_mw.is_some_and(|peak_mw| r_px_mw.saturating_add(vbd_mw) > peak_mw)
+    }
 }
 
 /// A closed range of device integers.

@@ -129,7 +129,7 @@ fn the_schema_knows_every_key_of_the_embedded_missions() {
     let sections = &schema["properties"];
     assert!(sections["mission"]["required"].as_array().unwrap().contains(&"yos".into()));
     let period = &sections["parameters"]["properties"]["pitch_period_s"];
-    assert_eq!((&period["minimum"], &period["default"]), (&2.into(), &20.into()));
+    assert_eq!((&period["minimum"], &period["default"]), (&2.into(), &40.into()));
     assert!(period["description"].as_str().unwrap().contains("pitch corrections"));
 }
 

@@ -16,7 +16,7 @@ const PLACES: usize = 2_000;
 /// An engine and limits to write into the table; they change no steady motion.
 fn with_engine(mut vehicle: Vehicle) -> Vehicle {
     let slocum = Vehicle::load("slocum-paper").unwrap();
-    (vehicle.buoyancy, vehicle.limits) = (slocum.buoyancy, slocum.limits);
+    (vehicle.buoyancy, vehicle.energy, vehicle.limits) = (slocum.buoyancy, slocum.energy, slocum.limits);
     vehicle
 }
 

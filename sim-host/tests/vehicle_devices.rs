@@ -49,6 +49,16 @@ fn a_dynamic_drive_may_leave_out_what_it_likes() {
     assert!(refused.starts_with("unknown key `axial`"), "a kinematic drive has no friction: {refused}");
 }
 
+/// At the crush depth, 300 m or 2.943 MPa, the pump's efficiency is 0.08 + 0.19 · 1.943/4 = 0.1723: 5 W + 2.943e6 ·
+/// 42e-6 W/0.1723.
+#[test]
+fn a_peak_power_bears_the_strongest_motor_alone() {
+    let peak_w = |lines: &str| slocum_with("energy", lines).map(|vehicle| vehicle.energy.unwrap().peak_power_w);
+    assert_eq!((peak_w(""), peak_w("peak_power_w = 723")), (Ok(None), Ok(Some(723.0))));
+    let refused = peak_w("peak_power_w = 722").unwrap_err();
+    assert!(refused.contains("peak_power_w") && refused.contains("at least 722.4"), "{refused}");
+}
+
 #[test]
 fn how_it_is_driven_and_built_changes_the_fingerprint() {
     let plain = slocum_with("buoyancy", "").unwrap().hash();
@@ -57,6 +67,7 @@ fn how_it_is_driven_and_built_changes_the_fingerprint() {
         ("buoyancy", "dead_zone_m3 = 1e-6"),
         ("buoyancy", "bleed_power_w = 1"),
         ("moving_mass", "drive = \"dynamic\""),
+        ("energy", "peak_power_w = 800"),
     ] {
         assert_ne!(slocum_with(section, lines).unwrap().hash(), plain, "{lines}");
     }

@@ -14,6 +14,7 @@ use crate::{
     heading::{HeadingLoop, TurnTrim},
     math,
     mission::{Course, Event, Executive, Mission, Phase, Unflyable},
+    motors::Turns,
     navigator::Navigator,
     parameters::{Parameters, Row},
     pitch::{PitchLoop, PitchTrim, Steady},
@@ -98,6 +99,9 @@ struct State {
     r_px_move: Move,
     mu_move: Move,
     vbd_move: Move,
+    /// Whether the axial drive ran in the last tick, or waited for its turn.
+    r_px_wanted: bool,
+    turns: Turns,
 }
 
 /// Where the actuators shall go, and what that is for.
@@ -173,12 +177,24 @@ impl<'a> Autopilot<'a> {
     fn drive(&mut self, measurements: &Measurements, targets: &Targets) -> Commands {
         let (config, state) = (&self.config, &mut self.state);
         state.mu_target_cdeg = targets.mu_cdeg;
-        let mu_rate = config.mu_servo.rate(&mut state.mu_move, targets.mu_cdeg, i32::from(measurements.mu_cdeg));
+        let (mut r_px, mut vbd, mut mu) = (state.r_px_move, state.vbd_move, state.mu_move);
+        let rates = [
+            config.r_px_servo.rate(&mut r_px, targets.r_px_um, measurements.r_px_um),
+            config.vbd_servo.rate(&mut vbd, targets.vbd_ul, measurements.vbd_ul),
+            config.mu_servo.rate(&mut mu, targets.mu_cdeg, i32::from(measurements.mu_cdeg)),
+        ];
+        let coming_up = matches!(state.executive.phase, Phase::Surfacing | Phase::Recovery);
+        let [r_px_runs, vbd_runs, mu_runs] = state.turns.take(&config.table.vehicle().power, rates, coming_up);
+        let [r_px_rate, vbd_rate, mu_rate] = rates;
+        state.r_px_wanted = r_px_rate != 0;
+        let r_px_rate = allowed(r_px_runs, r_px_rate, r_px, &mut state.r_px_move);
+        let vbd_rate = allowed(vbd_runs, vbd_rate, vbd, &mut state.vbd_move);
+        let mu_rate = allowed(mu_runs, mu_rate, mu, &mut state.mu_move);
         let (north_mm, east_mm) = state.navigator.position_mm();
         Commands {
-            r_px_rate_um_s: config.r_px_servo.rate(&mut state.r_px_move, targets.r_px_um, measurements.r_px_um),
+            r_px_rate_um_s: r_px_rate,
             mu_rate_cdeg_s: saturate(mu_rate),
-            vbd_rate_ul_s: config.vbd_servo.rate(&mut state.vbd_move, targets.vbd_ul, measurements.vbd_ul),
+            vbd_rate_ul_s: vbd_rate,
             phase: state.executive.phase,
             yo: state.executive.yo,
             abort: state.abort,
@@ -236,13 +252,13 @@ impl<'a> Config<'a> {
     /// The reversal that would end a dive or a climb; on the way to a drift it just stops half-way.
     fn reversal(&self, phase: Phase, navigator: &Navigator) -> Plan {
         let actuators = self.actuators();
-        let (level_rad, next, pump_ul_s) = if phase == Phase::Dive {
+        let (level_rad, next, vbd_rate_ul_s) = if phase == Phase::Dive {
             (-(self.apogee_pitch_cdeg as f32) * RAD_PER_CDEG, &self.climb, actuators.pump_rate_ul_s)
         } else {
-            (self.apogee_pitch_cdeg as f32 * RAD_PER_CDEG, &self.dive, actuators.bleed_rate_ul_s)
+            (self.apogee_pitch_cdeg as f32 * RAD_PER_CDEG, &self.dive, actuators.bleed_rate_ul_s.saturating_neg())
         };
         let net_mass_kg = |nominal_kg: f32| navigator.buoyancy().net_mass_kg(nominal_kg);
-        let kg_s = pump_ul_s as f32 / UL_PER_M3 * self.table.vehicle().density_kg_m3;
+        let kg_s = math::abs(vbd_rate_ul_s as f32) / UL_PER_M3 * self.table.vehicle().density_kg_m3;
         Plan {
             level_pitch_rad: level_rad,
             next_pitch_rad: next.pitch_cdeg as f32 * RAD_PER_CDEG,
@@ -251,6 +267,7 @@ impl<'a> Config<'a> {
             next_net_mass_kg: net_mass_kg(next.steady.net_mass_kg),
             net_mass_rate_kg_s: kg_s / navigator.buoyancy().drag_factor(),
             slope_kg_m: navigator.buoyancy().slope_kg_m(),
+            pitch_first: self.table.vehicle().power.bears_no_pitching_at(vbd_rate_ul_s),
             behind_m: navigator.buoyancy().behind_m(navigator.depth_rate_m_s),
         }
     }
@@ -340,6 +357,16 @@ impl State {
             Phase::Surface | Phase::Dive | Phase::Crest => false,
             Phase::Drift | Phase::Apogee | Phase::Climb | Phase::Surfacing | Phase::Complete | Phase::Recovery => true,
         }
+    }
+}
+
+/// The rate of a motor that may run or must wait. A move that must wait before its first tick has not begun.
+const fn allowed(runs: bool, rate: i32, next: Move, state: &mut Move) -> i32 {
+    if runs || rate == 0 {
+        *state = next;
+        rate
+    } else {
+        0
     }
 }
 

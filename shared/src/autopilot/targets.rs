@@ -53,7 +53,7 @@ impl Autopilot<'_> {
         let ticks_in_phase = tick.saturating_sub(state.executive.since_tick);
         let surfacing = state.executive.phase == Phase::Surfacing;
         let spiral = state.guide.aim == Aim::Spiral;
-        let attitude = state.navigator.attitude;
+        let (attitude, moving) = (state.navigator.attitude, state.r_px_wanted);
         let (trim, turn) = if steady.path_angle_rad < 0.0 {
             (&mut state.dive_trim, &mut state.dive_turn)
         } else {
@@ -66,7 +66,7 @@ impl Autopilot<'_> {
         // Beyond the table its axial position is only the edge's: an error there teaches nothing about the trim.
         if !surfacing && !expected.saturated {
             let pitch_error_cdeg = pitch_cdeg.saturating_sub(i32::from(attitude.pitch_cdeg));
-            config.pitch.update(trim, &config.table, &steady, ticks_in_phase, pitch_error_cdeg);
+            config.pitch.update(trim, &config.table, &steady, ticks_in_phase, (!moving).then_some(pitch_error_cdeg));
         }
         let trim_um = trim.trim_um;
         if state.navigator.depth_m < HEADING_DEPTH_M || (spiral && surfacing) {
@@ -99,7 +99,7 @@ impl Autopilot<'_> {
             &config.table,
             &config.dive.steady,
             ticks_in_phase,
-            pitch_error_cdeg,
+            (!state.r_px_wanted).then_some(pitch_error_cdeg),
         );
         let error_m = config.mission.dive_to_mm as f32 / MM_PER_M - navigator.depth_m;
         let vehicle = config.table.vehicle();

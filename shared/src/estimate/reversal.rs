@@ -1,9 +1,9 @@
 //! The way that a reversal of buoyancy still takes, from the reduced model rolled forward.
 //!
-//! A forecast starts from the motion under way and lets the drives run as the autopilot will let them: buoyancy towards the
-//! next glide's, pitch first to its nearly level value, then, once light enough, to the next glide's. It ends where the
-//! vertical speed changes sign. A slow pump takes minutes for that, so a forecast advances some steps per tick, and is some
-//! seconds old when it is done.
+//! A forecast starts from the motion under way and lets the drives run as the autopilot will let them: buoyancy towards
+//! the next glide's, pitch first to its nearly level value, then, once light enough, to the next glide's; one at a time
+//! where the supply does not bear both. It ends where the vertical speed changes sign. A slow pump takes minutes for
+//! that, so a forecast advances some steps per tick, and is some seconds old when it is done.
 //!
 //! On its way the water goes on changing as it did: by the net mass's slope over depth.
 
@@ -19,6 +19,8 @@ pub const STEP_S: f32 = 1.0;
 const STEPS: u32 = 8;
 /// Time by which pitch follows the mass and the mass its order, s.
 const PITCH_LAG_S: f32 = 1.5;
+/// Pitch error at which its move is over, rad: what a mass within 1 mm of its place leaves at most.
+const PITCHED_RAD: f32 = 0.005;
 /// A reversal that takes longer is not one, s.
 const LONGEST_S: f32 = 900.0;
 
@@ -37,6 +39,8 @@ pub struct Plan {
     pub next_net_mass_kg: f32,
     /// Speed at which pump or bleed change it, kg/s.
     pub net_mass_rate_kg_s: f32,
+    /// Whether buoyancy waits while the axial drive pitches, for want of power.
+    pub pitch_first: bool,
     /// Change of net mass with depth, kg/m.
     pub slope_kg_m: f32,
     /// Way by which what is known of the net mass trails the water's changes, m, down positive.
@@ -106,14 +110,15 @@ impl Rollout {
     fn step(&mut self, model: &Model<f32>, plan: &Plan) -> bool {
         let before_m_s = self.sink_rate_m_s;
         self.time_s += STEP_S;
-        let net_mass_kg = toward(self.drive.net_mass_kg, plan.next_net_mass_kg, plan.net_mass_rate_kg_s * STEP_S);
+        let (pitch_rad, net_mass_kg) = (self.drive.pitch_rad, self.drive.net_mass_kg);
+        let pitching = math::abs(self.goal_rad(plan) - pitch_rad) > PITCHED_RAD;
+        let most_kg = if plan.pitch_first && pitching { 0.0 } else { plan.net_mass_rate_kg_s * STEP_S };
+        let net_mass_kg = toward(net_mass_kg, plan.next_net_mass_kg, most_kg);
         self.drive.net_mass_kg = net_mass_kg;
         self.passed |=
             if self.sinking { net_mass_kg <= plan.pass_net_mass_kg } else { net_mass_kg >= plan.pass_net_mass_kg };
-        let pitch_rad = self.drive.pitch_rad;
         if self.time_s > PITCH_LAG_S {
-            let goal_rad = if self.passed { plan.next_pitch_rad } else { plan.level_pitch_rad };
-            self.drive.pitch_rad = toward(pitch_rad, goal_rad, plan.pitch_rate_rad_s * STEP_S);
+            self.drive.pitch_rad = toward(pitch_rad, self.goal_rad(plan), plan.pitch_rate_rad_s * STEP_S);
         }
         self.drive.pitch_rate_rad_s = (self.drive.pitch_rad - pitch_rad) / STEP_S;
         let water_kg = plan.slope_kg_m * (plan.behind_m + self.way_m);
@@ -122,6 +127,11 @@ impl Rollout {
         self.sink_rate_m_s = self.motion.sink_rate_m_s(self.drive.pitch_rad, self.drive.roll_rad);
         self.way_m += 0.5 * (before_m_s + self.sink_rate_m_s) * STEP_S;
         (self.sink_rate_m_s > 0.0) != self.sinking || self.time_s >= LONGEST_S
+    }
+
+    /// Where pitch is to go.
+    const fn goal_rad(&self, plan: &Plan) -> f32 {
+        if self.passed { plan.next_pitch_rad } else { plan.level_pitch_rad }
     }
 }
 
@@ -138,8 +148,23 @@ mod tests {
     const PITCH_RAD: f32 = -0.59;
     const NET_MASS_KG: f32 = 0.2129;
 
-    /// The turning depth of the made-up vehicle with one pitch throughout, and the sinking it starts from.
-    fn turns_after_m(net_mass_rate_kg_s: f32, slope_kg_m: f32) -> (f32, f32) {
+    /// A reversal at one pitch throughout.
+    fn plan(net_mass_rate_kg_s: f32, slope_kg_m: f32) -> Plan {
+        Plan {
+            level_pitch_rad: PITCH_RAD,
+            next_pitch_rad: 0.59,
+            pitch_rate_rad_s: 0.02,
+            pass_net_mass_kg: -0.1,
+            next_net_mass_kg: -NET_MASS_KG,
+            net_mass_rate_kg_s,
+            pitch_first: false,
+            slope_kg_m,
+            behind_m: 0.0,
+        }
+    }
+
+    /// The turning depth of the made-up vehicle with a plan, and the sinking it starts from.
+    fn turns_by_m(plan: &Plan) -> (f32, f32) {
         let file = file();
         let vehicle = TrimTable::parse(&file).unwrap().vehicle().clone();
         let drive = Drive {
@@ -150,23 +175,28 @@ mod tests {
             net_mass_kg: NET_MASS_KG,
             density_ratio: 1.0,
         };
-        let plan = Plan {
-            level_pitch_rad: PITCH_RAD,
-            next_pitch_rad: 0.59,
-            pitch_rate_rad_s: 0.02,
-            pass_net_mass_kg: -0.1,
-            next_net_mass_kg: -NET_MASS_KG,
-            net_mass_rate_kg_s,
-            slope_kg_m,
-            behind_m: 0.0,
-        };
         let model = Model::new(&vehicle.glide, vehicle.gravity_m_s2, STEP_S);
         let glide = (0..300).fold(Motion::at_rest(), |motion, _| model.step(&motion, &drive));
         let mut forecast = Forecast::default();
         for _ in 0..(LONGEST_S / STEP_S) as u32 {
-            forecast.advance(&model, &plan, &glide, &drive);
+            forecast.advance(&model, plan, &glide, &drive);
         }
         (forecast.lead_m(), glide.sink_rate_m_s(PITCH_RAD, 0.0))
+    }
+
+    fn turns_after_m(net_mass_rate_kg_s: f32, slope_kg_m: f32) -> (f32, f32) {
+        turns_by_m(&plan(net_mass_rate_kg_s, slope_kg_m))
+    }
+
+    /// A pump that waits until the nose is up loses that time, and no more than the way of that time at full speed.
+    #[test]
+    fn a_pump_that_waits_for_pitch_turns_deeper_by_part_of_the_way_of_pitching() {
+        let at_once = Plan { level_pitch_rad: -0.09, ..plan(NET_MASS_KG / 120.0, 0.0) };
+        let (at_once_m, sink_m_s) = turns_by_m(&at_once);
+        let (in_turn_m, _) = turns_by_m(&Plan { pitch_first: true, ..at_once });
+        let pitching_s = (0.59 - 0.09) / 0.02;
+        let deeper_m = in_turn_m - at_once_m;
+        assert!(deeper_m > 0.0 && deeper_m < pitching_s * sink_m_s, "{at_once_m} m, {in_turn_m} m in turn");
     }
 
     /// When the pump is slow the speed follows the root of the net mass: ∫√(1 − t/T) over T is 2/3 T.

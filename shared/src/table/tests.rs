@@ -1,7 +1,11 @@
 //! A made-up vehicle's table: written, read, looked up, refused.
 
 use super::*;
-use crate::{compass::Compass, reduced::tests::SLOCUM, vehicle::Actuators};
+use crate::{
+    compass::Compass,
+    reduced::tests::SLOCUM,
+    vehicle::{Actuators, MotorPower},
+};
 use std::vec::Vec;
 
 fn vehicle() -> FlightVehicle {
@@ -19,6 +23,7 @@ fn vehicle() -> FlightVehicle {
             pump_rate_ul_s: 42_000,
             bleed_rate_ul_s: 42_000,
         },
+        power: MotorPower { r_px_mw: 3_000, mu_mw: 2_000, pump_mw: 700_000, bleed_mw: 0, peak_mw: None },
         working_depth_mm: 200_000,
         glide: SLOCUM,
         critical_heading_gain: [[[9.0; 2]; 2]; 2],

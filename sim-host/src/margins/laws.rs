@@ -39,7 +39,7 @@ impl<'a> Laws<'a> {
         let corrected_um = |error_cdeg: i32| {
             let mut trim = PitchTrim::default();
             for tick in 0..LONG_S * TICK_HZ {
-                law.update(&mut trim, self.table, &self.steady, tick, error_cdeg);
+                law.update(&mut trim, self.table, &self.steady, tick, Some(error_cdeg));
                 if trim.trim_um != 0 {
                     break;
                 }

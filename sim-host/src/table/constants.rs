@@ -1,9 +1,9 @@
 //! What the controller must know of the vehicle, from its file.
 
-use shared::vehicle::{Actuators, FlightVehicle, GlideConstants, Range};
+use shared::vehicle::{Actuators, FlightVehicle, GlideConstants, MotorPower, Range};
 
 use super::{Envelope, gain::critical_heading_gains, lag::turn_lengths_m};
-use crate::vehicle::{Compass, Vehicle};
+use crate::vehicle::{Buoyancy, Compass, Energy, Limits, Vehicle, Water};
 
 /// What the controller must know of the vehicle, for flights in an envelope.
 ///
@@ -12,6 +12,7 @@ use crate::vehicle::{Compass, Vehicle};
 pub fn flight_vehicle(vehicle: &Vehicle, envelope: &Envelope) -> Result<FlightVehicle, String> {
     let lacks = |section: &str| format!("{}: flying needs the section [{section}]", vehicle.name);
     let buoyancy = vehicle.buoyancy.as_ref().ok_or_else(|| lacks("buoyancy"))?;
+    let energy = vehicle.energy.as_ref().ok_or_else(|| lacks("energy"))?;
     let limits = vehicle.limits.as_ref().ok_or_else(|| lacks("limits"))?;
     let (mass, hydro, water) = (&vehicle.moving_mass, &vehicle.hydrodynamics, &vehicle.water);
     let integer = |value: f64| value.round() as i32;
@@ -34,6 +35,7 @@ pub fn flight_vehicle(vehicle: &Vehicle, envelope: &Envelope) -> Result<FlightVe
             pump_rate_ul_s: integer(buoyancy.pump_rate_m3_s * ul),
             bleed_rate_ul_s: integer(buoyancy.bleed_rate_m3_s * ul),
         },
+        power: motor_power(buoyancy, energy, limits, water),
         working_depth_mm: integer(limits.working_depth_m * mm),
         glide: GlideConstants {
             mass_kg: vehicle.mass_kg() as f32,
@@ -52,4 +54,17 @@ pub fn flight_vehicle(vehicle: &Vehicle, envelope: &Envelope) -> Result<FlightVe
         critical_heading_gain: critical_heading_gains(vehicle, envelope)?,
         compass: vehicle.compass.as_ref().map(Compass::flown).unwrap_or_default(),
     })
+}
+
+/// Powers are rounded up and the limit down, so that rounding never lets the motors draw more.
+fn motor_power(buoyancy: &Buoyancy, energy: &Energy, limits: &Limits, water: &Water) -> MotorPower {
+    const MW_PER_W: f64 = 1e3;
+    let mw = |power_w: f64| (power_w * MW_PER_W).ceil() as u32;
+    MotorPower {
+        r_px_mw: mw(energy.pitch_motor_w),
+        mu_mw: mw(energy.roll_motor_w),
+        pump_mw: mw(buoyancy.most_pump_power_w(limits, water)),
+        bleed_mw: mw(buoyancy.engine.bleed_power_w),
+        peak_mw: energy.peak_power_w.map(|power_w| (power_w * MW_PER_W).floor() as u32),
+    }
 }

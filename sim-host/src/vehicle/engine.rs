@@ -5,9 +5,11 @@
 
 use serde::Serialize;
 
-use super::Buoyancy;
+use super::{Buoyancy, Limits, Water};
 use crate::toml_file::{Rule, Section};
 
+/// Depths at which the pump's power is looked at for its most: its tables have a kink every 100 m or so.
+const DEPTH_STEPS: u32 = 1_000;
 /// Steps of a 12-bit potentiometer over the range of volumes.
 const POT_STEPS: f64 = 4096.0;
 /// Vacuum in the hull: 8 inHg, the middle of the 4 to 12 inHg at which fielded gliders neither warn nor abort.
@@ -109,6 +111,15 @@ impl Buoyancy {
         }
         let efficiency = interpolated(&self.efficiency, pressure_pa).unwrap_or(1.0);
         self.idle_power_w + pressure_pa * rate_m3_s / efficiency
+    }
+
+    /// Most electrical power that the pump takes at its full rate anywhere down to the crush depth, W.
+    #[must_use]
+    pub fn most_pump_power_w(&self, limits: &Limits, water: &Water) -> f64 {
+        let crush_pa = water.density_kg_m3 * water.gravity_m_s2 * limits.crush_depth_m;
+        let at = |step: u32| f64::from(step) / f64::from(DEPTH_STEPS) * crush_pa;
+        let power_w = |pressure_pa: f64| self.pump_power_w(pressure_pa, self.pump_rate_at_m3_s(pressure_pa));
+        (0..=DEPTH_STEPS).map(|step| power_w(at(step))).fold(0.0, f64::max)
     }
 }
 

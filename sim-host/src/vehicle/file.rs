@@ -9,6 +9,9 @@
 //! `[hydrodynamics]` and `[added_mass]` may be left out whole: they then come from the geometry ([`crate::coefficients`]), at the
 //! nominal speed and the mean of dive and climb.
 //!
+//! `[energy]` may say what its motors may draw together, `peak_power_w` (then no limit); with it the controller runs
+//! them in turn.
+//!
 //! `[buoyancy]` may say how its engine is built and `[moving_mass]` how it is driven: [`super::Engine`] and [`super::Drive`].
 //! `[compass]` may say how the battery deflects it: [`super::Compass`].
 
@@ -78,6 +81,12 @@ fn vehicle(file: &mut Section<'_>) -> Vehicle {
     };
     let added_mass = file.optional_section("added_mass", added_mass);
     let hydrodynamics = file.optional_section("hydrodynamics", |section| hydrodynamics(section, &hull, &wing));
+    let buoyancy = file.optional_section("buoyancy", buoyancy);
+    let limits = file.optional_section("limits", limits);
+    let strongest_w = match (&buoyancy, &limits) {
+        (Some(buoyancy), Some(limits)) => buoyancy.most_pump_power_w(limits, &water).max(buoyancy.engine.bleed_power_w),
+        (None, _) | (_, None) => 0.0,
+    };
     Vehicle {
         name: file.text("name", NAME_CHARS),
         nominal_speed_m_s,
@@ -86,9 +95,9 @@ fn vehicle(file: &mut Section<'_>) -> Vehicle {
         added_mass: added_mass.unwrap_or_else(|| shape.added_mass(water.density_kg_m3).into()),
         hydrodynamics: hydrodynamics.unwrap_or_else(|| shape.coefficients(&stream).hydrodynamics(MomentFrame::Body)),
         crossflow: file.optional_section("crossflow", |section| crossflow(section, &hull, &wing, &fin)),
-        buoyancy: file.optional_section("buoyancy", buoyancy),
-        energy: file.optional_section("energy", energy),
-        limits: file.optional_section("limits", limits),
+        energy: file.optional_section("energy", |section| energy(section, strongest_w)),
+        buoyancy,
+        limits,
         compass: file.optional_section("compass", Compass::read),
         water,
         hull,
@@ -236,14 +245,21 @@ fn elasticity(buoyancy: &mut Section<'_>) -> Elasticity {
     }
 }
 
-fn energy(energy: &mut Section<'_>) -> Energy {
-    Energy {
+/// The strongest motor besides those of the section runs alone, but run it must: the limit may not be below what it
+/// takes, W.
+fn energy(energy: &mut Section<'_>, strongest_w: f64) -> Energy {
+    let read = Energy {
         battery_j: energy.number("battery_j", Rule::Positive),
         battery_v: energy.number("battery_v", Rule::Positive),
         hotel_w: energy.number("hotel_w", Rule::NotNegative),
         pitch_motor_w: energy.number("pitch_motor_w", Rule::NotNegative),
         roll_motor_w: energy.number("roll_motor_w", Rule::NotNegative),
-    }
+        peak_power_w: energy.optional_number("peak_power_w", Rule::Positive),
+    };
+    let strongest_w = strongest_w.max(read.pitch_motor_w).max(read.roll_motor_w);
+    let right = format!("at least {strongest_w:.1}: what the strongest motor draws alone, a pump at the crush depth");
+    energy.refuse_if(read.peak_power_w.is_some_and(|peak_w| peak_w < strongest_w), "peak_power_w", &right);
+    read
 }
 
 /// Areas default to the geometry's: the hull's side view with the wing outside it, or with the fin.

@@ -240,6 +240,8 @@ pub struct Energy {
     pub pitch_motor_w: f64,
     /// Rotation drive while it moves, W.
     pub roll_motor_w: f64,
+    /// Most that pump and drives may draw together, W; nothing: no limit.
+    pub peak_power_w: Option<f64>,
 }
 
 /// How deep it may go.

@@ -109,16 +109,15 @@ mod tests {
     /// What a compass shows, 0.01°: the direction of the Earth's field and the battery's together, both in body axes.
     fn shown_cdeg(heading_cdeg: u16, [roll_cdeg, pitch_cdeg]: [i16; 2], field: [f64; 3]) -> u16 {
         let rad = |cdeg: f64| (cdeg / 100.0).to_radians();
-        let to_body =
-            nalgebra::Rotation3::from_euler_angles(rad(roll_cdeg.into()), rad(pitch_cdeg.into()), 0.0).inverse();
+        let to_level = nalgebra::Rotation3::from_euler_angles(rad(roll_cdeg.into()), rad(pitch_cdeg.into()), 0.0);
         let (sin, cos) = rad(heading_cdeg.into()).sin_cos();
         // The vertical part must not matter: levelling takes it away.
-        let seen = to_body.inverse() * (to_body * Vector3::new(cos, -sin, 2.0) + Vector3::from(field));
+        let seen = Vector3::new(cos, -sin, 2.0) + to_level * Vector3::from(field);
         ((-seen.y).atan2(seen.x).to_degrees() * 100.0).round().rem_euclid(36_000.0) as u16 % 36_000
     }
 
     fn off_cdeg(one: u16, other: u16) -> i32 {
-        math::wrap_cdeg(i32::from(one) - i32::from(other)).abs()
+        math::wrap_cdeg(i32::from(one).saturating_sub(other.into())).abs()
     }
 
     #[test]

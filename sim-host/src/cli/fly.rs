@@ -11,6 +11,7 @@ use shared::{table::TrimTable, wire::Configuration};
 
 use super::progress::Progress;
 use crate::{
+    campaign::Drawn,
     faults_file::FaultsFile,
     flight::{FlyingVehicle, Summary, fly},
     mission_file::MissionFile,
@@ -73,6 +74,7 @@ pub(super) fn run(args: &Args) -> Result<(), String> {
     let table = TrimTable::parse(&table_bytes).and_then(|table| table.for_vehicle(vehicle.hash()));
     let table = table.map_err(|error| format!("{}: {}", table_name(args), describe(&error)))?;
     let (file, mut autopilot) = ready(asked, &flying, &table, &ocean)?;
+    let ocean = Drawn::nominal().ocean(&ocean, &vehicle, f64::from(file.mission.dive_to_mm) / 1e3);
     fs::create_dir_all(&args.out).map_err(|error| format!("{}: {error}", args.out.display()))?;
 
     let progress = Progress::new(&file.mission);

@@ -108,6 +108,8 @@ parameters! {
     no_motion_s: 30..=7_200, 900;
     /// Change of depth that counts as motion, mm.
     no_motion_mm: 100..=50_000, 3_000;
+    /// Time for which the vehicle does not rise though light, or not sink though heavy, after which the mission ends, s.
+    against_model_s: 10..=3_600, 60;
     /// Consecutive echoes of a floor that is too near after which a dive ends.
     altitude_samples: 1..=100, 3;
 }

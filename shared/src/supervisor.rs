@@ -32,6 +32,8 @@ pub enum Abort {
     LowCharge,
     /// Under way, but neither sinking nor rising.
     NoVerticalMotion,
+    /// Light and not rising, or heavy and not sinking, as the reduced model has it.
+    AgainstModel,
 }
 
 /// Limits of one mission, in ticks and device integers.
@@ -50,6 +52,7 @@ pub struct Supervisor {
     most_drawn_mc: Option<i64>,
     no_motion_ticks: u32,
     no_motion_mm: i32,
+    against_model_ticks: u32,
 }
 
 /// What the supervisor remembers.
@@ -59,6 +62,7 @@ pub struct Watch {
     vacuum: Streak,
     undervolts: Streak,
     low_charge: Streak,
+    against_model: Streak,
     /// Tick and depth, mm, from which on there was no vertical motion.
     rest: Option<(u32, i32)>,
 }
@@ -76,6 +80,8 @@ pub struct Vitals<'a> {
     pub attitude_tick: u32,
     /// Whether depth should be changing.
     pub under_way: bool,
+    /// Whether depth does not go where the reduced model says; nothing if neither can be told.
+    pub against_model: Option<bool>,
     /// What the other instruments say; what says nothing is not judged.
     pub measurements: &'a Measurements,
 }
@@ -102,6 +108,7 @@ impl Supervisor {
             most_drawn_mc: (percent_mc > 0).then_some(percent_mc.saturating_mul(may_draw_percent)),
             no_motion_ticks: seconds(parameters.no_motion_s),
             no_motion_mm: parameters.no_motion_mm,
+            against_model_ticks: seconds(parameters.against_model_s),
         }
     }
 
@@ -122,6 +129,7 @@ impl Supervisor {
             (watch.undervolts.take(weak, self.samples), Abort::Undervolts),
             (watch.low_charge.take(spent, self.samples), Abort::LowCharge),
             (age(vitals.attitude_tick) > self.stale_attitude_ticks, Abort::StaleAttitude),
+            (watch.against_model.take(vitals.against_model, self.against_model_ticks), Abort::AgainstModel),
             (age(self.at_rest_since(watch, vitals)) > self.no_motion_ticks, Abort::NoVerticalMotion),
             (vitals.tick > self.max_ticks, Abort::MissionTimeout),
         ];

@@ -171,6 +171,8 @@ impl Baseline {
             depth_tick: navigator.depth_tick.unwrap_or(0),
             attitude_tick: navigator.attitude_tick.unwrap_or(0),
             under_way: !matches!(self.executive.phase, Phase::Surface | Phase::Complete | Phase::Recovery),
+            // It has no model of the vehicle.
+            against_model: None,
             measurements,
         };
         if let Some(abort) = self.supervisor.judge(&mut self.watch, &vitals)

@@ -85,6 +85,34 @@ fn each_fault_is_noticed_in_time_and_the_vehicle_comes_back() {
     }
 }
 
+/// Heavier than its file by more than the climb's net mass, it dives well, and hangs at depth when it should climb.
+#[test]
+fn a_vehicle_too_heavy_to_climb_is_noticed_by_the_reduced_model_and_comes_back() {
+    const HEAVY_KG: f64 = 0.255;
+    let file = MissionFile::load("default").unwrap();
+    let table = TrimTable::parse(&TABLE).unwrap();
+    let mut autopilot = Autopilot::new(&table, &file.mission, &file.parameters).unwrap();
+    let (mass_kg, density_kg_m3) = (SLOCUM.mass_kg(), SLOCUM.water.density_kg_m3);
+    let ocean = Ocean::still(&SLOCUM.water).with_ballast_density(density_kg_m3 * mass_kg / (mass_kg - HEAVY_KG));
+    let flying = FlyingVehicle::new(&SLOCUM).unwrap();
+    let (mut climb_s, mut aborted_s, mut depth_m) = (None, None, 0.0);
+    let summary = fly(&flying, &ocean, &file.mission, &file.start, 1, &mut autopilot, &mut |tick| {
+        depth_m = tick.state.position_m.z;
+        let time_s = f64::from(tick.tick) * 0.25;
+        match tick.commands.phase {
+            Phase::Climb => climb_s = climb_s.or(Some(time_s)),
+            Phase::Recovery => aborted_s = aborted_s.or(Some(time_s)),
+            _ => {}
+        }
+    })
+    .unwrap();
+    assert_eq!((summary.outcome, summary.aborts), (Outcome::Aborted, vec!["AgainstModel".to_string()]));
+    let noticed_s = aborted_s.unwrap() - climb_s.unwrap();
+    // A minute against the model, once the way of the dive is lost: long before a vehicle counts as at rest, after 900 s.
+    assert!((60.0..300.0).contains(&noticed_s), "{noticed_s} s after the climb began");
+    assert!(depth_m < 1.0, "{depth_m} m deep at the end");
+}
+
 /// Glitches, gaps and noise that a sound vehicle lives with.
 #[test]
 fn nuisances_end_no_mission() {

@@ -24,6 +24,8 @@ impl Autopilot<'_> {
         let depth_mm = navigator.depth_mm();
         let ahead_mm = depth_mm.saturating_add(self.lead_mm());
         let (met, event) = match executive.phase {
+            // The fix may show that the last waypoint was reached after all.
+            Phase::Surface if arrived && executive.yo > 0 => (true, Event::LastAfloat),
             Phase::Surface => (self.is_ready_to_dive(tick), Event::ReadyToDive),
             Phase::Dive | Phase::Drift if near_bottom => (true, Event::NearBottom),
             Phase::Dive if mission.drift_time_s > 0 => (ahead_mm >= mission.dive_to_mm, Event::DeepEnoughToDrift),
@@ -32,7 +34,8 @@ impl Autopilot<'_> {
             Phase::Apogee => (net_mass_kg <= PASS_SHARE * config.climb.steady.net_mass_kg, Event::Light),
             // Nothing reverses at the last top.
             Phase::Climb if arrived || mission.surfaces_after(executive.yo) => {
-                (depth_mm <= mission.climb_to_mm, Event::LastTopReached)
+                // A surfaced vehicle floats some centimetres deep.
+                (depth_mm <= mission.climb_to_mm || self.is_at_rest(), Event::LastTopReached)
             }
             Phase::Climb => (ahead_mm <= mission.climb_to_mm, Event::TopReached),
             Phase::Crest => (net_mass_kg >= PASS_SHARE * config.dive.steady.net_mass_kg, Event::Heavy),

@@ -151,6 +151,7 @@ impl<'a> Autopilot<'a> {
             depth_tick: state.navigator.depth_tick.unwrap_or(0),
             attitude_tick: state.navigator.attitude_tick.unwrap_or(0),
             under_way: state.is_gliding(),
+            against_model: state.navigator.goes_against_model(tick),
             measurements,
         };
         if let Some(abort) = self.config.supervisor.judge(&mut state.watch, &vitals)

@@ -207,7 +207,7 @@ fn a_drift_is_neither_stuck_nor_adrift_for_ever_and_each_surfacing_but_the_last_
     use Phase::{Apogee, Climb, Complete, Dive, Drift, Surface, Surfacing};
     let mission = Mission { surfacings: 2, drift_time_s: 2_000, max_duration_s: 7_200, ..mission() };
     // Longer at one depth than a glide may be; depth is let settle at the surface after each climb.
-    let dive = [(300, 50, -250_000), (8_400, 100, 0), (300, 60, 250_000), (300, 2, 250_000), (600, 0, 300_000)];
+    let dive = [(200, 50, -250_000), (8_400, 100, 0), (200, 60, 250_000), (300, 2, 250_000), (600, 0, 300_000)];
     let flown = [&[(40, 0, 300_000)][..], &dive[..], &dive[..]].concat();
     let (phases, last) = phases_of(&mission, &flown);
     let once = [Surface, Dive, Drift, Apogee, Climb, Surfacing];
@@ -218,7 +218,7 @@ fn a_drift_is_neither_stuck_nor_adrift_for_ever_and_each_surfacing_but_the_last_
 #[test]
 fn a_drift_can_be_aborted() {
     let mission = Mission { drift_time_s: 2_000, max_duration_s: 2_000, ..mission() };
-    let (phases, last) = phases_of(&mission, &[(40, 0, 300_000), (300, 50, -250_000), (8_400, 100, 0)]);
+    let (phases, last) = phases_of(&mission, &[(40, 0, 300_000), (200, 50, -250_000), (8_400, 100, 0)]);
     assert_eq!(phases, [Phase::Surface, Phase::Dive, Phase::Drift, Phase::Recovery]);
     assert_eq!(last.abort, Some(Abort::MissionTimeout));
     assert_eq!(last.vbd_rate_ul_s, 42_000, "it pumps");

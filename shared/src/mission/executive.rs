@@ -63,7 +63,7 @@ pub enum Event {
     Heavy,
     /// At the surface, and dives follow.
     Afloat,
-    /// At the surface, and nothing is left to fly.
+    /// At the surface, and nothing is left to fly: as dead reckoning has it, or as a position fix there shows.
     LastAfloat,
     /// The supervisor ends the mission.
     Abort,
@@ -72,6 +72,7 @@ pub enum Event {
 /// Which event takes the executive from which phase to which. Anything else changes nothing.
 pub const TRANSITIONS: &[(Phase, Event, Phase)] = &[
     (Phase::Surface, Event::ReadyToDive, Phase::Dive),
+    (Phase::Surface, Event::LastAfloat, Phase::Complete),
     (Phase::Dive, Event::DeepEnough, Phase::Apogee),
     (Phase::Dive, Event::NearBottom, Phase::Apogee),
     (Phase::Dive, Event::DeepEnoughToDrift, Phase::Drift),

@@ -21,6 +21,12 @@ const DEPTH_GAIN: f32 = 0.2;
 const DEPTH_RATE_GAIN: f32 = 0.022_291_2;
 /// Silence of the pressure sensor that the last rate still bridges: 5 s.
 const SILENCE_TICKS: u32 = 5 * TICK_HZ;
+/// Depth above which waves and the surface itself say where the vehicle goes, m.
+const SUBMERGED_M: f32 = 5.0;
+/// Modelled vertical speed below which it says nothing of where the vehicle must go, m/s.
+const SLOW_M_S: f32 = 0.1;
+/// Least part of it that a sound vehicle makes good.
+const MADE_GOOD: f32 = 0.25;
 /// Least density that is one, kg/m³; a parameter below it says nothing.
 const LEAST_DENSITY_KG_M3: i32 = 900;
 
@@ -40,6 +46,7 @@ pub struct Navigator {
     origin: Option<GpsFix>,
     water_density_kg_m3: Option<f32>,
     water: Motion<f32>,
+    modelled_sink_m_s: f32,
     drive: Drive<f32>,
     buoyancy: Buoyancy,
     drift: Drift,
@@ -84,6 +91,7 @@ impl Navigator {
             origin: None,
             water_density_kg_m3: (density_kg_m3 >= LEAST_DENSITY_KG_M3).then_some(density_kg_m3 as f32),
             water: Motion::at_rest(),
+            modelled_sink_m_s: 0.0,
             drive: Drive {
                 pitch_rad: 0.0,
                 roll_rad: 0.0,
@@ -110,6 +118,7 @@ impl Navigator {
         }
         if afloat {
             self.water = Motion::at_rest();
+            self.modelled_sink_m_s = 0.0;
             self.move_on(&Vector2::zeros());
         } else {
             self.dead_reckon(vehicle, tick, measurements);
@@ -148,6 +157,22 @@ impl Navigator {
     pub fn heading_cdeg(&self) -> i32 {
         let learned_cdeg = math::round_to_i32(self.drift.compass_rad() / RAD_PER_CDEG);
         i32::from(self.attitude.heading_cdeg).saturating_add(learned_cdeg)
+    }
+
+    /// Whether the vehicle makes good less than a quarter of the vertical speed that the reduced model says, with all that
+    /// was learned of weight and drag, or goes the other way; nothing while pressure is silent.
+    #[must_use]
+    pub fn goes_against_model(&self, tick: u32) -> Option<bool> {
+        (self.depth_tick == Some(tick)).then(|| {
+            let (modelled_m_s, made_good_m_s) = (self.modelled_sink_m_s, MADE_GOOD * self.modelled_sink_m_s);
+            self.depth_m > SUBMERGED_M
+                && math::abs(modelled_m_s) > SLOW_M_S
+                && if modelled_m_s > 0.0 {
+                    self.depth_rate_m_s < made_good_m_s
+                } else {
+                    self.depth_rate_m_s > made_good_m_s
+                }
+        })
     }
 
     /// Modelled speed through the water, m/s.
@@ -222,6 +247,7 @@ impl Navigator {
         let to_inertial = rotation(drive.roll_rad, drive.pitch_rad, f32::from(attitude.heading_cdeg) * RAD_PER_CDEG);
         let velocity = to_inertial * Vector3::new(self.water.u_m_s, 0.0, self.water.w_m_s);
         self.drive = drive;
+        self.modelled_sink_m_s = velocity.z;
         if self.depth_tick == Some(tick) && self.attitude_tick == Some(tick) {
             self.buoyancy.update(nominal_kg, velocity.z, self.depth_rate_m_s);
         }
@@ -242,11 +268,12 @@ impl Navigator {
 
     /// Sets the position to the fix; the first one becomes the origin. The first one after a dive teaches the drift.
     fn take_fix(&mut self, tick: u32, fix: GpsFix) {
+        let first = self.origin.is_none();
         let origin = *self.origin.get_or_insert(fix);
         (self.north_um, self.east_um) = from_origin_um(&origin, &fix);
         let fix_um = [self.north_um, self.east_um];
         let since = self.since_fix;
-        if since.dived {
+        if since.dived && !first {
             let metres = |um: [i64; 2]| Vector2::from(um.map(|um| um as f32 / UM_PER_M));
             let made_m = metres(fix_um) - metres(since.fix_um);
             let time_s = tick.saturating_sub(since.tick) as f32 * TICK_S;

@@ -163,3 +163,23 @@ fn the_first_fix_is_the_origin_and_later_ones_are_metres_from_it() {
     assert!((north_mm - 111_195).abs() <= 1, "{north_mm}");
     assert!((east_mm - 11_119).abs() <= 1, "{east_mm}, across the date line at 60° north");
 }
+
+/// Light and nose up in 50 m: rising as the polar says, hanging, sinking; and the same while pressure is silent.
+#[test]
+fn a_vehicle_that_hangs_or_sinks_though_light_goes_against_the_model() {
+    let file = file();
+    let table = TrimTable::parse(&file).unwrap();
+    let rise_m_s = 0.77 * 35_f32.to_radians().sin();
+    for (made_good_m_s, against) in [(rise_m_s, false), (0.5 * rise_m_s, false), (0.0, true), (-0.1, true)] {
+        let mut navigator = Navigator::default();
+        let mut light = Measurements { vbd_ul: 212_900, ..at(0, 0) };
+        light.attitude.as_mut().unwrap().pitch_cdeg = 3_378;
+        for tick in 0..400 {
+            let depth_m = 60.0 - made_good_m_s * TICK_S * tick as f32;
+            light.pressure_pa = Some((depth_m * 9_810.0) as i32);
+            navigator.update(table.vehicle(), tick, &light, false);
+        }
+        assert_eq!(navigator.goes_against_model(399), Some(against), "{made_good_m_s} m/s of {rise_m_s}");
+        assert_eq!(navigator.goes_against_model(400), None, "no fresh depth");
+    }
+}

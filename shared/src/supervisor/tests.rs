@@ -18,6 +18,7 @@ const WELL: Vitals<'_> = Vitals {
     depth_tick: 1_000,
     attitude_tick: 1_000,
     under_way: true,
+    against_model: Some(false),
     measurements: &SOUND,
 };
 
@@ -164,4 +165,21 @@ fn the_gravest_reason_is_given_first() {
     let parameters = Parameters { abort_samples: 1, ..Parameters::default() };
     let said = supervisor(&parameters).judge(&mut Watch::default(), &Vitals { measurements: &wet, ..all });
     assert_eq!(said, Some(Abort::Leak));
+}
+
+#[test]
+fn a_minute_against_the_model_aborts_and_a_moment_with_it_begins_anew() {
+    let supervisor = supervisor(&PARAMETERS());
+    let mut watch = Watch::default();
+    let mut judge = |against| supervisor.judge(&mut watch, &Vitals { against_model: against, ..WELL });
+    for against in [Some(true), None] {
+        for _ in 1..60 * TICK_HZ {
+            assert_eq!(judge(against), None);
+        }
+    }
+    assert_eq!(judge(Some(false)), None);
+    for _ in 1..60 * TICK_HZ {
+        assert_eq!(judge(Some(true)), None);
+    }
+    assert_eq!(judge(Some(true)), Some(Abort::AgainstModel));
 }

@@ -92,7 +92,7 @@ fn a_whole_mission_with_turns_stays_close() {
 #[test]
 fn fixed_point_never_overflows() {
     let mut seawing = Vehicle::load("seawing").unwrap();
-    (seawing.buoyancy, seawing.limits) = (slocum().buoyancy, slocum().limits);
+    (seawing.buoyancy, seawing.limits, seawing.energy) = (slocum().buoyancy, slocum().limits, slocum().energy);
     let steeper = Envelope { dive_deg: [18.0, 40.0], climb_deg: [18.0, 40.0], ..Envelope::default() };
     for (vehicle, envelope) in [(slocum(), Envelope::default()), (seawing, steeper)] {
         let glide: GlideConstants = flight_vehicle(&vehicle, &envelope).unwrap().glide;

@@ -6,7 +6,7 @@ use std::{
     process::{Command, exit},
 };
 
-use shared::table::TrimTable;
+use shared::model::table::TrimTable;
 
 /// The table that is embedded unless `GLIDER_TABLE` names another.
 const DEFAULT_TABLE: &str = "slocum-paper.table";

@@ -1,7 +1,7 @@
 //! The three actuators together: what the autopilot commands, and what it hears of them.
 
 use embedded_hal::{digital::OutputPin, pwm::SetDutyCycle};
-use shared::device::Commands;
+use shared::commands::Commands;
 
 use crate::{
     calibration::Counts,

@@ -11,8 +11,9 @@
 
 use embedded_io::{Read, ReadReady, Write};
 use shared::{
-    device::{Commands, Measurements},
-    table::TrimTable,
+    commands::Commands,
+    device::Measurements,
+    model::table::TrimTable,
     wire::{
         self, ActuatorFrame, Auth, Configuration, Decoder, Header, Hello, MAX_FRAME, Message, PROTOCOL, Refusal,
         SensorFrame,

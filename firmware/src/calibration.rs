@@ -1,6 +1,6 @@
 //! From the raw counts of a converter to device integers.
 
-use shared::vehicle::Range;
+use shared::model::vehicle::Range;
 
 /// A raw reading of the analogue converter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

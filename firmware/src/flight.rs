@@ -2,10 +2,9 @@
 
 use shared::{
     autopilot::{Autopilot, ConfigurationError},
-    device::{Commands, Measurements},
-    mission::Phase,
-    supervisor::Abort,
-    table::TrimTable,
+    commands::{Abort, Commands, Phase},
+    device::Measurements,
+    model::table::TrimTable,
     wire::{Configuration, Refusal},
 };
 

@@ -6,7 +6,7 @@ use embedded_hal::{
     digital::{OutputPin, PinState},
     pwm::SetDutyCycle,
 };
-use shared::vehicle::{Actuators, Range};
+use shared::model::vehicle::{Actuators, Range};
 
 use crate::{
     calibration::{Counts, Line},

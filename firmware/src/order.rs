@@ -1,6 +1,6 @@
 //! A rate that was ordered: it goes stale, and it ends at the end stops.
 
-use shared::vehicle::Range;
+use shared::model::vehicle::Range;
 
 use crate::BEAT_HZ;
 

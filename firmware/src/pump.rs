@@ -3,7 +3,7 @@
 //! Motor and valve never work against each other, and neither works without a healthy potentiometer and a fresh order.
 
 use embedded_hal::{digital::OutputPin, pwm::SetDutyCycle};
-use shared::vehicle::{Actuators, Range};
+use shared::model::vehicle::{Actuators, Range};
 
 use crate::{
     BEAT_HZ,

@@ -5,7 +5,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use sim_host::link::{Emulator, FirmwarePilot, Machine, Stream};
+use sim_host::flight::link::{Emulator, FirmwarePilot, Machine, Stream};
 use tempfile::TempDir;
 
 use crate::{dive::Dive, image, log};

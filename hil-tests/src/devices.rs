@@ -13,7 +13,7 @@ use firmware::{
     mass::{Axis, AxisCalibration},
     pump::{Pump, PumpCalibration},
 };
-use shared::vehicle;
+use shared::model::vehicle;
 
 /// Steps of a PWM channel.
 pub const FULL_DUTY: u16 = 1_000;

@@ -1,18 +1,11 @@
 //! Dives on the real plant, by the linked autopilot or by firmware beside it.
 
 use shared::{
-    autopilot::Autopilot,
-    device::{Commands, Measurements},
-    table::TrimTable,
-    wire::Configuration,
+    autopilot::Autopilot, commands::Commands, device::Measurements, model::table::TrimTable, wire::Configuration,
 };
 use sim_host::{
-    flight::{FlyingVehicle, Summary, fly},
-    link::FirmwarePilot,
-    mission_file::MissionFile,
-    ocean::Ocean,
-    pilot::Pilot,
-    vehicle::Vehicle,
+    flight::{FlyingVehicle, Summary, fly, link::FirmwarePilot, mission_file::MissionFile, pilot::Pilot},
+    model::{ocean::Ocean, vehicle::Vehicle},
 };
 
 const SEED: u64 = 1;

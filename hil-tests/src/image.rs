@@ -10,7 +10,7 @@ use object::{
     Object, ObjectSection, ObjectSymbol, SectionFlags,
     elf::{SHF_ALLOC, SHF_WRITE},
 };
-use sim_host::link::Machine;
+use sim_host::flight::link::Machine;
 
 /// Root of the workspace.
 #[must_use]

@@ -14,8 +14,9 @@ use hil_tests::{
     dive::Dive,
 };
 use shared::{
-    device::{Commands, Measurements},
-    table::TrimTable,
+    commands::Commands,
+    device::Measurements,
+    model::table::TrimTable,
     wire::{Auth, Decoder, Header, MAX_FRAME, Message, Refusal, SensorFrame, encode},
 };
 

@@ -2,7 +2,7 @@
 
 use hil_tests::{bench::Bench, dive::Dive, image, report};
 use shared::wire::MAX_FRAME;
-use sim_host::{link::Machine, pilot::Pilot};
+use sim_host::flight::{link::Machine, pilot::Pilot};
 
 /// Flash and RAM that an image may take; the linker's map holds it to them too.
 const FLASH: u64 = 128 * 1024;

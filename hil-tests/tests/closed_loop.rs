@@ -7,8 +7,8 @@ use hil_tests::{
     dive::{Dive, Twins},
     report,
 };
-use sim_host::{
-    flight::{Outcome, Summary},
+use sim_host::flight::{
+    Outcome, Summary,
     link::{FirmwarePilot, Machine},
     replay::replay,
 };

@@ -5,9 +5,9 @@ use std::time::Duration;
 use hil_tests::{bench::Bench, dive::Dive};
 use shared::{
     device::Measurements,
-    wire::{Auth, Configuration, Header, MAX_FRAME, Message, PROTOCOL, Refusal, SensorFrame, crc32, encode, schema},
+    wire::{Auth, Configuration, Header, MAX_FRAME, Message, PROTOCOL, Refusal, SensorFrame, encode, schema},
 };
-use sim_host::link::{FirmwarePilot, Machine};
+use sim_host::flight::link::{FirmwarePilot, Machine};
 
 const PATIENCE: Duration = Duration::from_secs(30);
 
@@ -122,7 +122,7 @@ fn damaged_frames_are_dropped_counted_and_never_acted_on() {
 /// A whole frame whose sender was built from other types: schema and CRC, framed by hand.
 fn of_another_schema() -> Vec<u8> {
     let content = (schema() ^ 1).to_le_bytes();
-    let plain = [content, crc32(&content).to_le_bytes()].concat();
+    let plain = [content, shared::checksum::crc32(&content).to_le_bytes()].concat();
     assert!(!plain.contains(&0), "COBS without zeros is a count and the bytes");
     [&[plain.len() as u8 + 1], plain.as_slice(), &[0]].concat()
 }

@@ -7,7 +7,7 @@ use firmware::{
     pump::{Fault, Pump},
 };
 use hil_tests::devices::{Devices, Pin, Piston, Pwm, Slide};
-use shared::{device::Commands, table::TrimTable};
+use shared::{commands::Commands, model::table::TrimTable};
 
 const BROKEN_WIRE: Counts = Counts(0);
 
@@ -69,7 +69,7 @@ fn nothing_runs_past_an_end_stop() {
             drivers.beat(&devices.readings());
             devices.advance();
         }
-        let arrived = |position: f64, travel: shared::vehicle::Range| {
+        let arrived = |position: f64, travel: shared::model::vehicle::Range| {
             let stop = f64::from(if sign > 0 { travel.max } else { travel.min });
             (position - stop).abs() / f64::from(travel.max - travel.min) < 0.01
         };

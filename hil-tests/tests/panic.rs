@@ -6,7 +6,7 @@ use std::{
 };
 
 use hil_tests::{bench::Bench, dive::Dive};
-use sim_host::link::{FirmwarePilot, Machine};
+use sim_host::flight::link::{FirmwarePilot, Machine};
 
 const PATIENCE: Duration = Duration::from_secs(30);
 /// Duty registers of the three motors: TIM3_CCR1 to TIM3_CCR3.

@@ -3,8 +3,8 @@
 use std::{fs, path::Path};
 
 use sim_host::{
-    table::{Envelope, generate},
-    vehicle::Vehicle,
+    analysis::table::{Envelope, generate},
+    model::vehicle::Vehicle,
 };
 
 /// `glider table slocum-paper -o firmware/slocum-paper.table` writes it anew after a change of plant or vehicle.

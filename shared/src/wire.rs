@@ -10,16 +10,15 @@
 //! The firmware speaks first, with [`Hello`]. The host may then [`Message::Configure`] it, and from there every
 //! [`Message::Sensors`] is answered by one [`Message::Actuators`], whatever the speed.
 
-use crc::{CRC_32_ISO_HDLC, Crc};
 use heapless::String;
 use postcard_schema::{Schema, key::Key};
 use serde::{Deserialize, Serialize};
 
-use crate::{
-    device::{Commands, Measurements},
-    mission::Mission,
-    parameters::Parameters,
-};
+use crate::checksum::crc32;
+use crate::commands::Commands;
+use crate::device::Measurements;
+use crate::mission::Mission;
+use crate::parameters::Parameters;
 
 /// Version of the exchange itself: which message may follow which.
 pub const PROTOCOL: u16 = 1;
@@ -28,15 +27,8 @@ pub const MAX_FRAME: usize = 512;
 /// Ends every frame, and stands nowhere in one.
 pub const DELIMITER: u8 = 0;
 
-const CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
 const SCHEMA_BYTES: usize = 4;
 const CRC_BYTES: usize = 4;
-
-/// CRC-32 (ISO-HDLC) of frames and tables.
-#[must_use]
-pub fn crc32(bytes: &[u8]) -> u32 {
-    CRC.checksum(bytes)
-}
 
 /// What every frame starts with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Schema)]
@@ -327,10 +319,8 @@ mod tests {
     /// The longest mission with the largest values, and with it the longest message there is.
     #[test]
     fn the_largest_configuration_fits_a_frame() {
-        use crate::{
-            device::GpsFix,
-            mission::{Course, MAX_HEADINGS, MAX_WAYPOINTS, Route},
-        };
+        use crate::device::GpsFix;
+        use crate::mission::{Course, MAX_HEADINGS, MAX_WAYPOINTS, Route};
         let place = GpsFix { lat_e7: i32::MIN, lon_e7: i32::MIN };
         let route = Route {
             places: [place; MAX_WAYPOINTS].into_iter().collect(),

@@ -11,16 +11,19 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use shared::{
     autopilot::Autopilot,
     device::{Attitude, Measurements},
-    table::TrimTable,
+    model::table::TrimTable,
 };
 use sim_host::{
-    flight::{FlyingVehicle, TICK_S, fly},
-    mission_file::MissionFile,
-    ocean::Ocean,
-    plant::{Input, Particle, Plant, State, rk4_step},
-    table::{Envelope, generate},
-    trim::{Condition, Scale, glide},
-    vehicle::Vehicle,
+    analysis::{
+        table::{Envelope, generate},
+        trim::{Condition, Scale, glide},
+    },
+    flight::{FlyingVehicle, TICK_S, fly, mission_file::MissionFile},
+    model::{
+        ocean::Ocean,
+        plant::{Input, Particle, Plant, State, rk4_step},
+        vehicle::Vehicle,
+    },
 };
 
 /// The paper's glider in a dive, a little off its trim, so that every term has something to do.

@@ -51,43 +51,11 @@
 //! | the best geometry: the paper's conclusions, limits kept, the same bits, its file reads back | `tests/design.rs` | a bound reached; 1e-12 |
 //! | Seawing's published spiral | `tests/seawing.rs` | 2 %: published digits, another drag law |
 
-pub mod baseline;
-pub mod campaign;
-pub mod chart;
+pub mod analysis;
 pub mod cli;
-pub mod coefficients;
-pub mod design;
-mod document;
-pub mod draw;
-pub mod eval;
-pub mod faults_file;
+pub mod files;
 pub mod flight;
-pub mod helix;
-#[cfg(unix)]
-pub mod link;
-pub mod locus;
-pub mod margins;
-pub mod mission_file;
-pub mod modes;
-pub mod ocean;
-mod page;
-pub mod paper;
+pub mod model;
+pub mod pages;
 pub mod parallel;
-pub mod performance;
-pub mod pilot;
-pub mod plan;
-pub mod plant;
-pub mod real;
-pub mod record;
-pub mod reduced_error;
-pub mod replay;
-pub mod report;
-pub mod sensitivity;
-pub mod swing;
-pub mod table;
-pub mod toml_file;
-pub mod trials;
-pub mod trim;
-pub mod turn;
-pub mod vehicle;
-pub mod whole_file;
+pub mod studies;

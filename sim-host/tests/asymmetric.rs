@@ -7,12 +7,16 @@ use nalgebra::Matrix3;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use sim_host::{
-    helix::{Helix, HelixSolver, Slope, Turn},
-    modes::{RollKinematics, modes},
-    plant::{Particle, Plant, State, euler_from_quaternion, rk4_step, rotation_from_quaternion},
-    trim::{Condition, Glide, Scale, glide},
-    turn::Turns,
-    vehicle::{MomentFrame, Vehicle},
+    analysis::{
+        helix::{Helix, HelixSolver, Slope, Turn},
+        modes::{RollKinematics, modes},
+        trim::{Condition, Glide, Scale, glide},
+        turn::Turns,
+    },
+    model::{
+        plant::{Particle, Plant, State, euler_from_quaternion, rk4_step, rotation_from_quaternion},
+        vehicle::{MomentFrame, Vehicle},
+    },
 };
 
 fn at_degrees(degrees: f64) -> Condition {

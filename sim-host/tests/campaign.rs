@@ -2,15 +2,16 @@
 
 use std::{fs, num::NonZero, path::Path, process::Command};
 
-use shared::{autopilot::Autopilot, table::TrimTable};
+use shared::{autopilot::Autopilot, model::table::TrimTable};
 use sim_host::{
-    baseline::{Baseline, Turn, TurnSense},
-    campaign::{self, Campaign, Drawn, FACTORS, Flown, Flyer, METRICS, Water},
-    flight::Outcome,
-    mission_file::MissionFile,
-    ocean::Ocean,
-    table::{Envelope, generate},
-    vehicle::Vehicle,
+    analysis::table::{Envelope, generate},
+    flight::{
+        Outcome,
+        baseline::{Baseline, Turn, TurnSense},
+        mission_file::MissionFile,
+    },
+    model::{ocean::Ocean, vehicle::Vehicle},
+    studies::campaign::{self, Campaign, Drawn, FACTORS, Flown, Flyer, METRICS, Water},
 };
 
 /// slocum-paper turns right with the mass to the right on dives and to the left on climbs.

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use nalgebra::{Const, Matrix6, Vector3};
 use num_dual::DualSVec64;
-use sim_host::{
+use sim_host::model::{
     coefficients::{
         Anchoring, CRITICAL_REYNOLDS_HULL, CRITICAL_REYNOLDS_WING, Coefficients, MassRule, Parameter, Shape, Stream,
         Study, body_form_factor, friction_coefficient, lift_slope, section_form_factor, spheroid_factors,

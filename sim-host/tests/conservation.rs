@@ -5,7 +5,7 @@ mod common;
 use common::{lopsided, random_states, unforced};
 use nalgebra::{Matrix3, Vector3};
 use num_dual::DualSVec64;
-use sim_host::{
+use sim_host::model::{
     plant::{
         Input, Particle, Plant, State, euler_from_quaternion, quaternion_from_euler, rk4_step, rotation_from_quaternion,
     },

@@ -4,7 +4,7 @@ mod common;
 
 use common::random_states;
 use nalgebra::Vector3;
-use sim_host::{
+use sim_host::model::{
     plant::{Particle, Plant, State, rk4_step},
     vehicle::Vehicle,
 };

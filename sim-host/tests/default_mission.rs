@@ -1,13 +1,10 @@
 //! The default mission, flown in the loop.
 
-use shared::{autopilot::Autopilot, mission::Phase, table::TrimTable};
+use shared::{autopilot::Autopilot, commands::Phase, model::table::TrimTable};
 use sim_host::{
-    flight::{FlyingVehicle, Outcome, Summary, fly},
-    mission_file::MissionFile,
-    ocean::Ocean,
-    plant::euler_from_quaternion,
-    table::{Envelope, generate},
-    vehicle::Vehicle,
+    analysis::table::{Envelope, generate},
+    flight::{FlyingVehicle, Outcome, Summary, fly, mission_file::MissionFile},
+    model::{ocean::Ocean, plant::euler_from_quaternion, vehicle::Vehicle},
 };
 
 /// One tick as the truth has it.

@@ -3,9 +3,8 @@
 use std::{fs, process::Command};
 
 use sim_host::{
-    coefficients::BoundaryLayer,
-    design::{Design, Objective, Spec, design, vehicle_toml},
-    vehicle::Vehicle,
+    analysis::design::{Design, Objective, Spec, design, vehicle_toml},
+    model::{coefficients::BoundaryLayer, vehicle::Vehicle},
 };
 
 /// A design of three numbers, without limits. A lung of 0.2 % leaves every flow laminar.

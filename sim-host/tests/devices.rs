@@ -1,12 +1,16 @@
 //! Devices that misbehave, in closed loop.
 
-use shared::{autopilot::Autopilot, device::Measurements, mission::Phase, table::TrimTable};
+use shared::{autopilot::Autopilot, commands::Phase, device::Measurements, model::table::TrimTable};
 use sim_host::{
-    flight::{CompassErrors, Dropout, Faults, FlyingVehicle, Instrument, Outcome, Seep, Summary, fly},
-    mission_file::MissionFile,
-    ocean::Ocean,
-    table::{Envelope, generate},
-    vehicle::{EngineKind, Vehicle},
+    analysis::table::{Envelope, generate},
+    flight::{
+        CompassErrors, Dropout, Faults, FlyingVehicle, Instrument, Outcome, Seep, Summary, fly,
+        mission_file::MissionFile,
+    },
+    model::{
+        ocean::Ocean,
+        vehicle::{EngineKind, Vehicle},
+    },
 };
 
 /// Flies the default mission with a changed vehicle and changed devices; shows every tick's pressure and buoyancy.

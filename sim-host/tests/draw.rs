@@ -3,9 +3,9 @@
 #![allow(clippy::unwrap_used, reason = "in a test a panic is the report")]
 
 use sim_host::{
-    draw::{DrawnGlide, sheet},
-    trim::{Condition, Scale, glide},
-    vehicle::Vehicle,
+    analysis::trim::{Condition, Scale, glide},
+    model::vehicle::Vehicle,
+    pages::draw::{DrawnGlide, sheet},
 };
 
 const SLOCUM: &str = include_str!("../vehicles/slocum-paper.toml");

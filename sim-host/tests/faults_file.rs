@@ -2,12 +2,10 @@
 
 #![allow(clippy::unwrap_used, reason = "in a test a panic is the report")]
 
-use sim_host::{
+use sim_host::flight::{
+    Actuator, AltimeterErrors, Cells, CompassErrors, Drain, Dropout, Faults, HousekeepingErrors, Instrument,
+    PressureErrors, Seep, SensorErrors, Stuck,
     faults_file::{EMBEDDED, FaultsFile},
-    flight::{
-        Actuator, AltimeterErrors, Cells, CompassErrors, Drain, Dropout, Faults, HousekeepingErrors, Instrument,
-        PressureErrors, Seep, SensorErrors, Stuck,
-    },
 };
 
 fn parse(text: &str) -> Result<FaultsFile, String> {

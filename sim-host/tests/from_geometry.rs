@@ -1,15 +1,15 @@
 //! A vehicle of which only the geometry is known trims, turns, has decaying modes and flies the default mission.
 
-use shared::{autopilot::Autopilot, table::TrimTable};
+use shared::{autopilot::Autopilot, model::table::TrimTable};
 use sim_host::{
-    flight::{FlyingVehicle, Outcome, fly},
-    mission_file::MissionFile,
-    modes::{RollKinematics, modes},
-    ocean::Ocean,
-    table::{Envelope, generate},
-    trim::{Condition, Scale, glide},
-    turn::Turns,
-    vehicle::Vehicle,
+    analysis::{
+        modes::{RollKinematics, modes},
+        table::{Envelope, generate},
+        trim::{Condition, Scale, glide},
+        turn::Turns,
+    },
+    flight::{FlyingVehicle, Outcome, fly, mission_file::MissionFile},
+    model::{ocean::Ocean, vehicle::Vehicle},
 };
 
 fn vehicle() -> Vehicle {

@@ -2,14 +2,16 @@
 
 #![allow(clippy::unwrap_used, reason = "in a test a panic is the report")]
 
-use shared::{autopilot::Autopilot, guidance::Aim, mission::Course, mission::Phase, table::TrimTable};
+use shared::{
+    autopilot::Autopilot,
+    commands::{Aim, Phase},
+    mission::Course,
+    model::table::TrimTable,
+};
 use sim_host::{
-    flight::{FlyingVehicle, Outcome, Summary, fly},
-    mission_file::MissionFile,
-    ocean::Ocean,
-    plant::euler_from_quaternion,
-    table::{Envelope, generate},
-    vehicle::Vehicle,
+    analysis::table::{Envelope, generate},
+    flight::{FlyingVehicle, Outcome, Summary, fly, mission_file::MissionFile},
+    model::{ocean::Ocean, plant::euler_from_quaternion, vehicle::Vehicle},
 };
 
 /// One tick as the truth has it.

@@ -5,14 +5,15 @@ mod common;
 use common::lopsided;
 use differential_equations::prelude::{ExplicitRungeKutta, IVP, ODE};
 use nalgebra::{Vector3, Vector4};
-use shared::{autopilot::Autopilot, table::TrimTable};
+use shared::{autopilot::Autopilot, model::table::TrimTable};
 use sim_host::{
-    flight::{FlyingVehicle, TICK_S, fly},
-    mission_file::MissionFile,
-    ocean::Ocean,
-    plant::{Particle, Plant, State, quaternion_from_euler, rk4_step},
-    table::{Envelope, generate},
-    vehicle::Vehicle,
+    analysis::table::{Envelope, generate},
+    flight::{FlyingVehicle, TICK_S, fly, mission_file::MissionFile},
+    model::{
+        ocean::Ocean,
+        plant::{Particle, Plant, State, quaternion_from_euler, rk4_step},
+        vehicle::Vehicle,
+    },
 };
 
 /// Rates that hold for one tick.

@@ -8,7 +8,7 @@ mod common;
 use common::{lopsided, random_states};
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 use num_dual::{Dual2SVec64, DualNum, hessian};
-use sim_host::{
+use sim_host::model::{
     plant::{Input, Plant, State, euler_from_quaternion, rotation_from_quaternion},
     vehicle::Vehicle,
 };

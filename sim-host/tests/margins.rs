@@ -3,21 +3,27 @@
 use std::{num::NonZero, process::Command};
 
 use shared::{
+    control::{
+        heading::{HeadingLoop, TurnTrim},
+        pitch::Steady,
+    },
     device::{RAD_PER_CDEG, TICK_HZ},
-    heading::{HeadingLoop, TurnTrim},
     math::wrap_cdeg,
+    model::table::TrimTable,
     parameters::Parameters,
-    pitch::Steady,
-    table::TrimTable,
 };
 use sim_host::{
-    margins::{self, ENOUGH_GAIN},
-    mission_file::MissionFile,
-    modes::{RollKinematics, linearised},
-    plant::{Particle, Plant, State, euler_from_quaternion, rk4_step},
-    table::{Envelope, generate},
-    trim::{Condition, Scale, glide},
-    vehicle::Vehicle,
+    analysis::{
+        margins::{self, ENOUGH_GAIN},
+        modes::{RollKinematics, linearised},
+        table::{Envelope, generate},
+        trim::{Condition, Scale, glide},
+    },
+    flight::mission_file::MissionFile,
+    model::{
+        plant::{Particle, Plant, State, euler_from_quaternion, rk4_step},
+        vehicle::Vehicle,
+    },
 };
 
 const TICK_S: f64 = 0.25;

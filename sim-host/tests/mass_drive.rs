@@ -1,18 +1,14 @@
 //! The moving mass under motors, eight degrees of freedom: beside the kinematic drive, at its stops, in its brake, and what it costs.
 
-use shared::{
-    autopilot::Autopilot,
-    device::{Commands, Measurements},
-    table::TrimTable,
-};
+use shared::{autopilot::Autopilot, commands::Commands, device::Measurements, model::table::TrimTable};
 use sim_host::{
-    flight::{EnergyUsed, FlyingVehicle, Outcome, Summary, TICK_S, fly},
-    mission_file::MissionFile,
-    ocean::Ocean,
-    pilot::Pilot,
-    plant::State,
-    table::{Envelope, generate},
-    vehicle::{AxialDrive, Drive, RotationDrive, Vehicle},
+    analysis::table::{Envelope, generate},
+    flight::{EnergyUsed, FlyingVehicle, Outcome, Summary, TICK_S, fly, mission_file::MissionFile, pilot::Pilot},
+    model::{
+        ocean::Ocean,
+        plant::State,
+        vehicle::{AxialDrive, Drive, RotationDrive, Vehicle},
+    },
 };
 
 /// What each tick ends with.

@@ -4,14 +4,16 @@
 
 use shared::{
     mission::{Course, Mission},
+    model::table::TrimTable,
     parameters::Parameters,
-    table::TrimTable,
 };
 use sim_host::{
-    flight::FlyingVehicle,
-    mission_file::{MissionFile, Start},
-    table::{Envelope, generate},
-    vehicle::Vehicle,
+    analysis::table::{Envelope, generate},
+    flight::{
+        FlyingVehicle,
+        mission_file::{MissionFile, Start},
+    },
+    model::vehicle::Vehicle,
 };
 
 const DEFAULT: &str = include_str!("../missions/default.toml");

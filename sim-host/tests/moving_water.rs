@@ -6,7 +6,7 @@ mod common;
 
 use common::lopsided;
 use nalgebra::{Matrix3, Vector3};
-use sim_host::{
+use sim_host::model::{
     ocean::Ocean,
     plant::{
         Input, Medium, Particle, Plant, State, Surroundings, Unrest, quaternion_from_euler, rk4_step,

@@ -5,13 +5,15 @@
 use std::sync::LazyLock;
 
 use nalgebra::Vector3;
-use shared::{autopilot::Autopilot, mission::Phase, supervisor::Abort, table::TrimTable};
+use shared::{
+    autopilot::Autopilot,
+    commands::{Abort, Phase},
+    model::table::TrimTable,
+};
 use sim_host::{
-    flight::{FlyingVehicle, Loss, Outcome, Summary, fly},
-    mission_file::MissionFile,
-    ocean::Ocean,
-    table::{Envelope, generate},
-    vehicle::Vehicle,
+    analysis::table::{Envelope, generate},
+    flight::{FlyingVehicle, Loss, Outcome, Summary, fly, mission_file::MissionFile},
+    model::{ocean::Ocean, vehicle::Vehicle},
 };
 
 static SLOCUM: LazyLock<Vehicle> = LazyLock::new(|| Vehicle::load("slocum-paper").unwrap());

@@ -3,8 +3,8 @@
 use std::sync::LazyLock;
 
 use sim_host::{
-    paper::{Reproduction, reproduce, tables::compare},
-    vehicle::Vehicle,
+    analysis::paper::{Reproduction, reproduce, tables::compare},
+    model::vehicle::Vehicle,
 };
 
 static ALL: LazyLock<Reproduction> = LazyLock::new(|| reproduce(&Vehicle::load("slocum-paper").unwrap()).unwrap());

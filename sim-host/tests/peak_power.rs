@@ -6,15 +6,13 @@
 use shared::{
     autopilot::Autopilot,
     device::{MM_PER_M, TICK_S},
-    table::TrimTable,
+    model::table::TrimTable,
 };
 use sim_host::{
-    campaign::Drawn,
-    flight::{Cells, FlyingVehicle, Outcome, Summary, fly},
-    mission_file::MissionFile,
-    ocean::Ocean,
-    table::{Envelope, generate},
-    vehicle::Vehicle,
+    analysis::table::{Envelope, generate},
+    flight::{Cells, FlyingVehicle, Outcome, Summary, fly, mission_file::MissionFile},
+    model::{ocean::Ocean, vehicle::Vehicle},
+    studies::campaign::Drawn,
 };
 
 /// Rounding of the difference of two sums of energy, W.

@@ -3,19 +3,22 @@
 use std::f64::consts::PI;
 
 use num_dual::DualSVec64;
-use shared::{autopilot::Autopilot, mission::Phase, table::TrimTable};
+use shared::{autopilot::Autopilot, commands::Phase, model::table::TrimTable};
 use sim_host::{
-    coefficients::{Anchoring, BoundaryLayer, Shape, Study},
-    flight::{FlyingVehicle, TICK_S, fly},
-    mission_file::MissionFile,
-    ocean::Ocean,
-    paper::performance::VARIED,
-    performance::{Account, Endurance, Hold, Polar, Sizing, Yo},
-    plant::rotation_from_quaternion,
-    real::Real,
-    table::{Envelope, generate},
-    trim::{Condition, Glide, Scale, glide},
-    vehicle::Vehicle,
+    analysis::{
+        paper::performance::VARIED,
+        performance::{Account, Endurance, Hold, Polar, Sizing, Yo},
+        table::{Envelope, generate},
+        trim::{Condition, Glide, Scale, glide},
+    },
+    flight::{FlyingVehicle, TICK_S, fly, mission_file::MissionFile},
+    model::{
+        coefficients::{Anchoring, BoundaryLayer, Shape, Study},
+        ocean::Ocean,
+        plant::rotation_from_quaternion,
+        real::Real,
+        vehicle::Vehicle,
+    },
 };
 
 type Dual = DualSVec64<1>;

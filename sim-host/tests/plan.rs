@@ -3,14 +3,12 @@
 use std::{fs, num::NonZero, ops::RangeInclusive, path::Path, process::Command, sync::LazyLock};
 
 use serde_json::Value;
-use shared::{autopilot::Autopilot, table::TrimTable};
+use shared::{autopilot::Autopilot, model::table::TrimTable};
 use sim_host::{
-    flight::{NorthEast, Outcome},
-    mission_file::MissionFile,
-    ocean::Ocean,
-    plan::{self, Plan, Planned, Scatter},
-    table::{Envelope, generate},
-    vehicle::Vehicle,
+    analysis::table::{Envelope, generate},
+    flight::{NorthEast, Outcome, mission_file::MissionFile},
+    model::{ocean::Ocean, vehicle::Vehicle},
+    studies::plan::{self, Plan, Planned, Scatter},
 };
 
 fn plan(mission: &str, current_m_s: f64, seeds: RangeInclusive<u64>, threads: usize) -> Plan {

@@ -6,9 +6,11 @@ use common::{lopsided, unforced};
 use nalgebra::{Vector3, Vector6};
 use serde_json::Value;
 use sim_host::{
-    eval::eval,
-    plant::{Input, Particle, Plant, State, quaternion_from_euler, rk4_step},
-    vehicle::Vehicle,
+    analysis::eval::eval,
+    model::{
+        plant::{Input, Particle, Plant, State, quaternion_from_euler, rk4_step},
+        vehicle::Vehicle,
+    },
 };
 
 fn slocum() -> Vehicle {

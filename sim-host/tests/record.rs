@@ -10,17 +10,16 @@ use parquet::{
     record::Field,
 };
 use shared::{
-    device::{Attitude, Commands, GpsFix, Measurements},
-    mission::Phase,
-    supervisor::Abort,
+    commands::{Abort, Commands, Phase},
+    device::{Attitude, GpsFix, Measurements},
 };
 use sim_host::{
-    flight::EnergyUsed,
-    mission_file::Start,
-    ocean,
-    plant::Surroundings,
-    record::{COLUMNS, Record, Sample, Truth, Value},
-    vehicle::Water,
+    flight::{
+        EnergyUsed,
+        mission_file::Start,
+        record::{COLUMNS, Record, Sample, Truth, Value},
+    },
+    model::{ocean, plant::Surroundings, vehicle::Water},
 };
 
 fn record() -> Record {

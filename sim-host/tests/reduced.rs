@@ -5,17 +5,20 @@ mod common;
 use common::Interval;
 use shared::{
     device::TICK_S,
-    number::{Fixed, Number},
-    reduced::{Drive, Model, Motion, limits},
-    vehicle::GlideConstants,
+    model::{
+        number::{Fixed, Number},
+        reduced::{Drive, Model, Motion, limits},
+        vehicle::GlideConstants,
+    },
 };
 use sim_host::{
-    mission_file::MissionFile,
-    plant::Plant,
-    reduced_error::{self, BOUND, error, submerged},
-    table::{Envelope, flight_vehicle},
-    trim::{Condition, Scale, glide},
-    vehicle::Vehicle,
+    analysis::{
+        reduced_error::{self, BOUND, error, submerged},
+        table::{Envelope, flight_vehicle},
+        trim::{Condition, Scale, glide},
+    },
+    flight::mission_file::MissionFile,
+    model::{plant::Plant, vehicle::Vehicle},
 };
 
 fn slocum() -> Vehicle {
@@ -31,7 +34,7 @@ fn model<N: Number>(vehicle: &Vehicle) -> Model<N> {
 #[test]
 fn steady_glides_are_the_plants() {
     let vehicle = slocum();
-    let worst = |settle: fn(&Vehicle, &sim_host::trim::Glide) -> f64| {
+    let worst = |settle: fn(&Vehicle, &sim_host::analysis::trim::Glide) -> f64| {
         let mut worst = 0.0_f64;
         for path_angle_deg in [-35.0_f64, -26.0, -12.0, 12.0, 26.0, 40.0] {
             for net_mass_kg in [0.05, 0.25, 0.6] {
@@ -50,7 +53,7 @@ fn steady_glides_are_the_plants() {
     assert!(fixed < 3e-4);
 }
 
-fn settled<N: Number>(vehicle: &Vehicle, exact: &sim_host::trim::Glide) -> f64 {
+fn settled<N: Number>(vehicle: &Vehicle, exact: &sim_host::analysis::trim::Glide) -> f64 {
     let model = model::<N>(vehicle);
     let drive = Drive {
         pitch_rad: N::new(exact.pitch_rad as f32),

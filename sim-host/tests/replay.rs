@@ -5,18 +5,19 @@
 use std::sync::LazyLock;
 
 use shared::{
-    table::TrimTable,
+    model::table::TrimTable,
     wire::{self, Configuration, Decoder, Header, MAX_FRAME, Message, SensorFrame},
 };
 use sim_host::{
-    flight::{FlyingVehicle, Summary, fly},
-    mission_file::MissionFile,
-    ocean::Ocean,
-    pilot::ready,
-    record::{BadFrame, Record, Sample},
-    replay::{FieldDifference, Replay, replay},
-    table::{Envelope, generate},
-    vehicle::Vehicle,
+    analysis::table::{Envelope, generate},
+    flight::{
+        FlyingVehicle, Summary, fly,
+        mission_file::MissionFile,
+        pilot::ready,
+        record::{BadFrame, Record, Sample},
+        replay::{FieldDifference, Replay, replay},
+    },
+    model::{ocean::Ocean, vehicle::Vehicle},
 };
 
 /// A flight, its log and the table that flew it.
@@ -181,7 +182,7 @@ fn a_damaged_frame_is_refused_with_its_tick() {
 #[test]
 fn frames_of_another_schema_are_refused_with_both() {
     let content = (wire::schema() ^ 1).to_le_bytes();
-    let plain = [content, wire::crc32(&content).to_le_bytes()].concat();
+    let plain = [content, shared::checksum::crc32(&content).to_le_bytes()].concat();
     // COBS: each run between zeros behind its length.
     let runs = plain.split(|byte| *byte == 0).flat_map(|run| [&[run.len() as u8 + 1], run].concat());
     let log: Vec<u8> = runs.chain([wire::DELIMITER]).collect();

@@ -4,20 +4,20 @@
 
 use nalgebra::Vector3;
 use shared::{
-    device::{Attitude, Commands, Measurements},
-    guidance::Aim,
-    mission::Phase,
+    commands::{Aim, Commands, Phase},
+    device::{Attitude, Measurements},
 };
 use sim_host::{
-    flight::{EnergyUsed, NorthEast, Outcome, Summary, Surfacing},
-    mission_file::MissionFile,
-    ocean::Ocean,
-    record::{Record, Sample, Truth},
-    report::{
+    flight::{
+        EnergyUsed, NorthEast, Outcome, Summary, Surfacing,
+        mission_file::MissionFile,
+        record::{Record, Sample, Truth},
+    },
+    model::{ocean::Ocean, vehicle::Vehicle},
+    pages::report::{
         self, Flight,
         figures::{Leg, Moves, legs, moves, yo_heading_rms_deg},
     },
-    vehicle::Vehicle,
 };
 
 /// Ticks of each phase of the flight.

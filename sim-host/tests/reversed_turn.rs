@@ -1,13 +1,10 @@
 //! A vehicle that turns the other way is flown by the same controller: the sense of a turn stands in its table.
 
-use shared::{autopilot::Autopilot, mission::Phase, table::TrimTable};
+use shared::{autopilot::Autopilot, commands::Phase, model::table::TrimTable};
 use sim_host::{
-    flight::{FlyingVehicle, Outcome, fly},
-    mission_file::MissionFile,
-    ocean::Ocean,
-    plant::euler_from_quaternion,
-    table::{Envelope, generate},
-    vehicle::Vehicle,
+    analysis::table::{Envelope, generate},
+    flight::{FlyingVehicle, Outcome, fly, mission_file::MissionFile},
+    model::{ocean::Ocean, plant::euler_from_quaternion, vehicle::Vehicle},
 };
 
 fn vehicle_and_table() -> (Vehicle, Vec<u8>) {

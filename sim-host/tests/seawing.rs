@@ -1,9 +1,11 @@
 //! An external check: the spiral that Zhang et al. (2013) publish for another vehicle, with another model's conventions.
 
 use sim_host::{
-    helix::{Helix, HelixSolver, Slope, Turn},
-    trim::{Condition, Scale, glide},
-    vehicle::Vehicle,
+    analysis::{
+        helix::{Helix, HelixSolver, Slope, Turn},
+        trim::{Condition, Scale, glide},
+    },
+    model::vehicle::Vehicle,
 };
 
 const NET_MASS_KG: f64 = 0.3;

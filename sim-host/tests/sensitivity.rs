@@ -3,15 +3,19 @@
 use std::process::Command;
 
 use sim_host::{
-    coefficients::{Anchoring, Parameter, Shape, Study},
-    helix::Scale,
-    locus::Varied,
-    modes::{ModeSet, RollKinematics, modes},
-    performance::Polar,
-    sensitivity::{Sensitivities, sensitivities},
-    trim::{Condition, glide},
-    turn::Turns,
-    vehicle::Vehicle,
+    analysis::{
+        helix::Scale,
+        locus::Varied,
+        modes::{ModeSet, RollKinematics, modes},
+        performance::Polar,
+        sensitivity::{Sensitivities, sensitivities},
+        trim::{Condition, glide},
+        turn::Turns,
+    },
+    model::{
+        coefficients::{Anchoring, Parameter, Shape, Study},
+        vehicle::Vehicle,
+    },
 };
 
 const ROLL: RollKinematics = RollKinematics::Exact;

@@ -1,12 +1,16 @@
 //! Turns and modes against what the paper prints, and three ways to the same first order.
 
 use sim_host::{
-    helix::{Helix, HelixSolver, Slope, Turn},
-    modes::{ModeSet, RollKinematics, modes},
-    plant::{Plant, State},
-    trim::{Condition, Glide, Scale, glide},
-    turn::{Sensitivity, Turns},
-    vehicle::Vehicle,
+    analysis::{
+        helix::{Helix, HelixSolver, Slope, Turn},
+        modes::{ModeSet, RollKinematics, modes},
+        trim::{Condition, Glide, Scale, glide},
+        turn::{Sensitivity, Turns},
+    },
+    model::{
+        plant::{Plant, State},
+        vehicle::Vehicle,
+    },
 };
 
 fn slocum() -> Vehicle {

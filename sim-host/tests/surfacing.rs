@@ -4,14 +4,12 @@
 
 use std::{num::NonZero, thread};
 
-use shared::{autopilot::Autopilot, table::TrimTable};
+use shared::{autopilot::Autopilot, model::table::TrimTable};
 use sim_host::{
-    campaign::{self, Campaign, Flyer, METRICS, Water},
-    flight::Outcome,
-    mission_file::MissionFile,
-    ocean::Ocean,
-    table::{Envelope, generate},
-    vehicle::Vehicle,
+    analysis::table::{Envelope, generate},
+    flight::{Outcome, mission_file::MissionFile},
+    model::{ocean::Ocean, vehicle::Vehicle},
+    studies::campaign::{self, Campaign, Flyer, METRICS, Water},
 };
 
 /// Enough that the ninth decile is not just the worst.

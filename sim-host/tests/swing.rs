@@ -4,18 +4,25 @@ use std::{fs, process::Command};
 
 use nalgebra::{Rotation3, Vector3};
 use serde_json::Value;
-use shared::{device::Attitude, table::TrimTable};
+use shared::{device::Attitude, model::table::TrimTable};
 use sim_host::{
-    campaign::{METRICS, Seen},
-    faults_file::FaultsFile,
-    flight::{FlyingVehicle, fly},
-    mission_file::MissionFile,
-    ocean::Ocean,
-    pilot::ready,
-    record::{Record, Sample},
-    swing::{Reading, Swing, fit, section, swing, vehicle_file},
-    table::{Envelope, generate},
-    vehicle::{Compass, Vehicle},
+    analysis::table::{Envelope, generate},
+    flight::{
+        FlyingVehicle,
+        faults_file::FaultsFile,
+        fly,
+        mission_file::MissionFile,
+        pilot::ready,
+        record::{Record, Sample},
+    },
+    model::{
+        ocean::Ocean,
+        vehicle::{Compass, Vehicle},
+    },
+    studies::{
+        campaign::{METRICS, Seen},
+        swing::{Reading, Swing, fit, section, swing, vehicle_file},
+    },
 };
 
 const SLOCUM: &str = include_str!("../vehicles/slocum-paper.toml");

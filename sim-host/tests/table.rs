@@ -2,12 +2,14 @@
 
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
-use shared::table::TrimTable;
+use shared::model::table::TrimTable;
 use sim_host::{
-    helix::{Helix, HelixSolver, Slope, Turn},
-    table::{BOUND, Envelope, InterpolationError, generate, measure},
-    trim::{Condition, Scale, glide},
-    vehicle::Vehicle,
+    analysis::{
+        helix::{Helix, HelixSolver, Slope, Turn},
+        table::{BOUND, Envelope, InterpolationError, generate, measure},
+        trim::{Condition, Scale, glide},
+    },
+    model::vehicle::Vehicle,
 };
 
 /// Random places in each envelope; a table of this size has some 300 cells.

@@ -1,10 +1,14 @@
 //! The trends that sections 4.2.1 and 6 of the paper state: where they hold, and what happens where they do not.
 
 use sim_host::{
-    coefficients::{Anchoring, Parameter, Shape, Study},
-    paper::performance::VARIED,
-    performance::{Hold, Size, Sizing},
-    vehicle::Vehicle,
+    analysis::{
+        paper::performance::VARIED,
+        performance::{Hold, Size, Sizing},
+    },
+    model::{
+        coefficients::{Anchoring, Parameter, Shape, Study},
+        vehicle::Vehicle,
+    },
 };
 
 const HOLDS: [Hold; 2] = [Hold::Geometry, Hold::Displacement(52.0)];

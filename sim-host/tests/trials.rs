@@ -3,9 +3,11 @@
 use std::{fs, num::NonZero, process::Command};
 
 use sim_host::{
-    campaign::{Drawn, Flown, METRICS},
     flight::Outcome,
-    trials::{Claim, Flights, Limit, Measure, PROMISES, Promise, Quantile, TRIALS, Trial, count, judge, run},
+    studies::{
+        campaign::{Drawn, Flown, METRICS},
+        trials::{Claim, Flights, Limit, Measure, PROMISES, Promise, Quantile, TRIALS, Trial, count, judge, run},
+    },
 };
 
 const APOGEE: &str = "apogee_over_percent";

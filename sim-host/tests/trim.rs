@@ -1,9 +1,8 @@
 //! Wings-level glides against the numbers that the paper prints, and against the plant.
 
 use sim_host::{
-    plant::Plant,
-    trim::{Condition, Glide, Scale, glide},
-    vehicle::Vehicle,
+    analysis::trim::{Condition, Glide, Scale, glide},
+    model::{plant::Plant, vehicle::Vehicle},
 };
 
 fn slocum() -> Vehicle {

@@ -1,6 +1,6 @@
 //! The keys of a vehicle file that describe its devices.
 
-use sim_host::vehicle::{AxialDrive, Drive, EngineKind, Vehicle};
+use sim_host::model::vehicle::{AxialDrive, Drive, EngineKind, Vehicle};
 
 /// The paper's Slocum with more lines at the top of one section.
 fn slocum_with(section: &str, lines: &str) -> Result<Vehicle, String> {

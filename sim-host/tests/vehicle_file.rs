@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "in a test a panic is the report")]
 
-use sim_host::vehicle::{Elasticity, Vehicle};
+use sim_host::model::vehicle::{Elasticity, Vehicle};
 
 const SLOCUM: &str = include_str!("../vehicles/slocum-paper.toml");
 

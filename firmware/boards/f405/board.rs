@@ -23,10 +23,7 @@ use firmware::{
     mass::{Axis, AxisCalibration},
     pump::{Pump, PumpCalibration},
 };
-use shared::{
-    device::{Commands, Measurements},
-    table::TrimTable,
-};
+use shared::{commands::Commands, device::Measurements, model::table::TrimTable};
 use stm32f4xx_hal::{
     gpio::{AnyPin, Input, Output},
     pac::{Interrupt, NVIC, Peripherals, TIM3},

@@ -12,7 +12,7 @@ mod uart;
 use cortex_m_rt::entry;
 use embedded_io::Read;
 use firmware::{actuators::Readings, calibration::Counts};
-use shared::device::Commands;
+use shared::commands::Commands;
 
 /// The emulated converter never completes a conversion, so the drill brings its own readings: all in the middle.
 const MIDDLE: Readings = Readings { vbd: Counts(2_048), r_px: Counts(2_048), mu: Counts(2_048) };

@@ -2,7 +2,7 @@
 
 use cortex_m::peripheral::{SYST, syst::SystClkSource};
 use firmware::{app::Board, flight::Stopwatch};
-use shared::device::{Commands, Measurements};
+use shared::{commands::Commands, device::Measurements};
 
 /// SysTick counts down through all of its 24 bits.
 const FULL_TURN: u32 = 0x00ff_ffff;

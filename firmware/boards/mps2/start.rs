@@ -2,7 +2,7 @@
 
 use cortex_m_semihosting::debug::{EXIT_FAILURE, EXIT_SUCCESS, exit};
 use firmware::{TRIM_TABLE, app::App};
-use shared::table::TrimTable;
+use shared::model::table::TrimTable;
 
 use crate::{
     board::Emulated,

@@ -1,14 +1,13 @@
 //! What ends a phase.
 
 use super::{AFLOAT_DEPTH_M, Autopilot, PASS_SHARE};
-use crate::{
-    device::{MM_PER_M, Measurements},
-    estimate::reversal::{Forecast, STEP_S},
-    math,
-    mission::{Event, Phase},
-    reduced::Model,
-    streak::Streak,
-};
+use crate::commands::Phase;
+use crate::device::{MM_PER_M, Measurements};
+use crate::estimate::reversal::{Forecast, STEP_S};
+use crate::math;
+use crate::mission::Event;
+use crate::model::reduced::Model;
+use crate::safety::streak::Streak;
 
 /// Vertical speed below which the vehicle counts as at rest at the surface, m/s.
 const AFLOAT_RATE_M_S: f32 = 0.1;

@@ -6,23 +6,29 @@
 mod events;
 mod targets;
 
-use crate::{
+use crate::commands::{Abort, Commands, Learned, Phase};
+use crate::control::{
     depth_hold::DepthHold,
-    device::{Commands, Learned, Measurements, RAD_PER_CDEG, UL_PER_M3, UM_PER_M},
-    estimate::reversal::{Forecast, Plan},
-    guidance::{Guide, Sight},
     heading::{HeadingLoop, TurnTrim},
-    math,
-    mission::{Course, Event, Executive, Mission, Phase, Unflyable},
     motors::Turns,
-    navigator::Navigator,
-    parameters::{Parameters, Row},
     pitch::{PitchLoop, PitchTrim, Steady},
     servo::{Move, Servo},
+};
+use crate::device::{Measurements, RAD_PER_CDEG, UL_PER_M3, UM_PER_M};
+use crate::estimate::{
+    navigator::Navigator,
+    reversal::{Forecast, Plan},
+};
+use crate::math;
+use crate::mission::{
+    Course, Event, Executive, Mission, Unflyable,
+    guidance::{Guide, Sight},
+};
+use crate::model::{table::TrimTable, vehicle::Range};
+use crate::parameters::{Parameters, Row};
+use crate::safety::{
     streak::Streak,
-    supervisor::{Abort, Supervisor, Vitals, Watch},
-    table::TrimTable,
-    vehicle::Range,
+    supervisor::{Supervisor, Vitals, Watch},
 };
 
 /// Depth above which the vehicle counts as afloat, m.
@@ -239,7 +245,7 @@ impl<'a> Config<'a> {
         }
     }
 
-    fn actuators(&self) -> &crate::vehicle::Actuators {
+    fn actuators(&self) -> &crate::model::vehicle::Actuators {
         &self.table.vehicle().actuators
     }
 

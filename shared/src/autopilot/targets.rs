@@ -1,13 +1,10 @@
 //! Where the actuators shall go in each phase.
 
 use super::{AFLOAT_DEPTH_M, Autopilot, Side, Targets};
-use crate::{
-    device::{MM_PER_M, Measurements, RAD_PER_CDEG, TICK_HZ, UM_PER_M},
-    guidance::Aim,
-    math,
-    mission::Phase,
-    pitch::PitchLoop,
-};
+use crate::commands::{Aim, Phase};
+use crate::control::pitch::PitchLoop;
+use crate::device::{MM_PER_M, Measurements, RAD_PER_CDEG, TICK_HZ, UM_PER_M};
+use crate::math;
 
 /// Depth above which heading is left alone, since the wings are about to leave the water or just entered it, m.
 const HEADING_DEPTH_M: f32 = 2.0;

@@ -1,10 +1,8 @@
 //! The controller as a whole: when it dives, when it gives up, and what nonsense cannot make it do.
 
 use super::*;
-use crate::{
-    device::{Attitude, GpsFix, TICK_HZ},
-    table::tests::file,
-};
+use crate::device::{Attitude, GpsFix, TICK_HZ};
+use crate::model::table::tests::file;
 use heapless::Vec;
 
 fn mission() -> Mission {

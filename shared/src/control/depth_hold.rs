@@ -4,11 +4,9 @@
 //! the error of that for a net force, and what force it takes on average is learned. Volume is only moved where the buoyancy
 //! drive's own deadband finds it worth a move.
 
-use crate::{
-    device::{TICK_HZ, UL_PER_M3},
-    math,
-    vehicle::FlightVehicle,
-};
+use crate::device::{TICK_HZ, UL_PER_M3};
+use crate::math;
+use crate::model::vehicle::FlightVehicle;
 
 /// Time between two looks, s.
 const PERIOD_S: u32 = 20;
@@ -49,7 +47,7 @@ impl DepthHold {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::table::{TrimTable, tests::file};
+    use crate::model::table::{TrimTable, tests::file};
 
     /// A body without drag, too light by `light_kg` at first, 5 m above its depth and sinking.
     #[test]

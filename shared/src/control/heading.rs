@@ -1,12 +1,10 @@
 //! Heading by the rotation of the moving mass; how much it turns, and which way, stands in the trim table.
 
-use crate::{
-    device::{RAD_PER_CDEG, TICK_HZ, TICK_S},
-    math,
-    parameters::Parameters,
-    pitch::Steady,
-    table::{Axis, TrimTable},
-};
+use crate::control::pitch::Steady;
+use crate::device::{RAD_PER_CDEG, TICK_HZ, TICK_S};
+use crate::math;
+use crate::model::table::{Axis, TrimTable};
+use crate::parameters::Parameters;
 
 /// Tuning, in the units of the loop.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -13,7 +13,8 @@
 
 use core::cmp::Reverse;
 
-use crate::{device::TICK_HZ, vehicle::MotorPower};
+use crate::device::TICK_HZ;
+use crate::model::vehicle::MotorPower;
 
 /// Longest turn of pump or bleed while others wait, s: a heading loop looks every 8 s, and should not wait for much
 /// longer.

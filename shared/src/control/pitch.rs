@@ -6,13 +6,10 @@
 //! the error stayed in its deadband, made the rms of the path angle 0.24° instead of 0.14° with a constant 40 s,
 //! and 3 % more moves, on dives to 1000 m (16 vehicles); on dives to 200 m (24 vehicles) there was no difference.
 
-use crate::{
-    device::{RAD_PER_CDEG, TICK_HZ, UM_PER_M},
-    math,
-    parameters::Parameters,
-    table::TrimTable,
-    vehicle::Range,
-};
+use crate::device::{RAD_PER_CDEG, TICK_HZ, UM_PER_M};
+use crate::math;
+use crate::model::{table::TrimTable, vehicle::Range};
+use crate::parameters::Parameters;
 
 /// Half the step over which the table's slope is taken, rad.
 const SLOPE_STEP_RAD: f32 = 0.01;
@@ -126,7 +123,7 @@ fn slope_m_per_rad(table: &TrimTable<'_>, steady: &Steady) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::table::tests::file;
+    use crate::model::table::tests::file;
 
     const STEADY: Steady = Steady { path_angle_rad: -0.45, net_mass_kg: 0.25 };
 

@@ -1,10 +1,8 @@
 //! Drives one actuator to a target: starts seldom, arrives within a tick, then brakes.
 
-use crate::{
-    device::{TICK_HZ, TICK_S},
-    math,
-    vehicle::Range,
-};
+use crate::device::{TICK_HZ, TICK_S};
+use crate::math;
+use crate::model::vehicle::Range;
 
 /// Steps in which a drive's sensor divides its range: 12-bit converters.
 const SENSOR_STEPS: i32 = 4_095;

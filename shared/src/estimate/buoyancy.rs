@@ -7,7 +7,9 @@
 //! How fast the weight changes with depth is learned too: where the water grows denser, a reversal ends in other water than
 //! it begins in.
 
-use crate::{device::TICK_S, math, parameters::Parameters};
+use crate::device::TICK_S;
+use crate::math;
+use crate::parameters::Parameters;
 
 /// Time after buoyancy last changed before a glide counts as steady, s: speed is then the polar's to a few percent.
 const SETTLE_S: f32 = 40.0;

@@ -7,11 +7,9 @@
 
 use nalgebra::{Matrix4, Vector2, Vector4};
 
-use crate::{
-    device::{MM_PER_M, RAD_PER_CDEG},
-    math,
-    parameters::Parameters,
-};
+use crate::device::{MM_PER_M, RAD_PER_CDEG};
+use crate::math;
+use crate::parameters::Parameters;
 
 /// Shortest time under water that says anything about a current, s.
 const LEAST_S: f32 = 120.0;

@@ -1,4 +1,4 @@
-//! What is learned in flight: all of it bounded by parameters, and shown in [`crate::device::Learned`].
+//! What is learned in flight: all of it bounded by parameters, and shown in [`crate::commands::Learned`].
 //!
 //! * [`buoyancy`]: weight and drag, from the depth rate against the reduced model.
 //! * [`drift`]: current, speed and compass, from position fixes against dead reckoning.
@@ -6,4 +6,5 @@
 
 pub mod buoyancy;
 pub mod drift;
+pub mod navigator;
 pub mod reversal;

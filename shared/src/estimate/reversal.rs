@@ -7,10 +7,8 @@
 //!
 //! On its way the water goes on changing as it did: by the net mass's slope over depth.
 
-use crate::{
-    math,
-    reduced::{Drive, Model, Motion},
-};
+use crate::math;
+use crate::model::reduced::{Drive, Model, Motion};
 
 /// Time step of a forecast, s: a twentieth of the time in which speed follows.
 pub const STEP_S: f32 = 1.0;
@@ -143,7 +141,7 @@ fn toward(from: f32, to: f32, step: f32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::table::{TrimTable, tests::file};
+    use crate::model::table::{TrimTable, tests::file};
 
     const PITCH_RAD: f32 = -0.59;
     const NET_MASS_KG: f32 = 0.2129;

@@ -1,12 +1,9 @@
 //! Whether a vehicle can fly a mission.
 
 use super::{Course, MAX_HEADINGS, MAX_WAYPOINTS, Mission};
-use crate::{
-    device::{GpsFix, RAD_PER_CDEG},
-    math,
-    table::TrimTable,
-    vehicle::Range,
-};
+use crate::device::{GpsFix, RAD_PER_CDEG};
+use crate::math;
+use crate::model::{table::TrimTable, vehicle::Range};
 
 /// Greatest height above the sea floor to ask for, mm: altimeters of gliders reach 100 m.
 pub const MAX_ALTITUDE_MM: i32 = 100_000;

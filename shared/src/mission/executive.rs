@@ -11,34 +11,8 @@
 //! any of these but Complete ─► Recovery, for good
 //! ```
 
-use postcard_schema::Schema;
-use serde::{Deserialize, Serialize};
-
+use crate::commands::Phase;
 use crate::device::TICK_HZ;
-
-/// What the vehicle is about.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Schema)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Phase {
-    /// Afloat before the mission's first dive, antenna in air.
-    Surface,
-    /// Gliding down.
-    Dive,
-    /// Becoming light at depth, nearly level.
-    Apogee,
-    /// Gliding up.
-    Climb,
-    /// Becoming heavy at the top of a yo, nearly level.
-    Crest,
-    /// Last part of the way to the surface, fully light.
-    Surfacing,
-    /// Afloat after the last yo, antenna in air.
-    Complete,
-    /// Aborted: fully light, on the way to the surface or there.
-    Recovery,
-    /// Neutral and level at depth, carried by the water.
-    Drift,
-}
 
 /// What may end a phase.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,9 +2,10 @@
 
 mod check;
 mod executive;
+pub mod guidance;
 
 pub use check::{MAX_ALTITUDE_MM, MAX_RADIUS_MM, Unflyable};
-pub use executive::{Event, Executive, Phase, TRANSITIONS};
+pub use executive::{Event, Executive, TRANSITIONS};
 
 use heapless::Vec;
 use postcard_schema::Schema;

@@ -3,7 +3,9 @@
 use heapless::String;
 use serde::{Deserialize, Serialize};
 
-use crate::{compass::Compass, device::UL_PER_M3, math};
+use crate::device::UL_PER_M3;
+use crate::math;
+use crate::model::compass::Compass;
 
 /// Constants of one vehicle, written into its trim table by the generator and never typed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -25,7 +27,7 @@ pub struct FlightVehicle {
     /// Longitudinal flight dynamics, for the reduced model.
     pub glide: GlideConstants,
     /// Rotation of the mass per heading error from which on a loop that looks every
-    /// [`GAIN_PERIOD_S`](crate::heading::GAIN_PERIOD_S) swings ever more, at the corners of the table:
+    /// [`GAIN_PERIOD_S`](crate::control::heading::GAIN_PERIOD_S) swings ever more, at the corners of the table:
     /// `[dives, climbs][flattest, steepest][least, most net mass]`; 0 where the loop settles with no gain.
     pub critical_heading_gain: [[[f32; 2]; 2]; 2],
     /// How the moving battery deflects the compass.

@@ -1,40 +1,10 @@
 //! Ends the mission when it must end.
 
-use postcard_schema::Schema;
-use serde::{Deserialize, Serialize};
-
-use crate::{
-    device::{Measurements, TICK_HZ},
-    mission::Mission,
-    parameters::Parameters,
-    streak::Streak,
-};
-
-/// Why a mission ended early (append only).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Schema)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Abort {
-    /// Deeper than the mission's abort depth.
-    Overdepth,
-    /// The mission took longer than its time allowed.
-    MissionTimeout,
-    /// No fresh depth for too long.
-    StaleDepth,
-    /// No fresh attitude for too long.
-    StaleAttitude,
-    /// The leak detector is wet.
-    Leak,
-    /// Too little vacuum in the hull, or too much.
-    Vacuum,
-    /// Too little battery voltage.
-    Undervolts,
-    /// Too little charge left in the battery.
-    LowCharge,
-    /// Under way, but neither sinking nor rising.
-    NoVerticalMotion,
-    /// Light and not rising, or heavy and not sinking, as the reduced model has it.
-    AgainstModel,
-}
+use crate::commands::Abort;
+use crate::device::{Measurements, TICK_HZ};
+use crate::mission::Mission;
+use crate::parameters::Parameters;
+use crate::safety::streak::Streak;
 
 /// Limits of one mission, in ticks and device integers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

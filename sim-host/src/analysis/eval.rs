@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::{
+use crate::model::{
     plant::{Input, Plant, State, quaternion_from_euler},
     vehicle::Vehicle,
 };

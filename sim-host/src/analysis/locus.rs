@@ -3,10 +3,12 @@
 use nalgebra::Complex;
 use serde::Serialize;
 
-use crate::{
-    coefficients::{Anchoring, Parameter, Shape, Study},
+use crate::analysis::{
     modes::{Modes, RollKinematics, modes},
     trim::{Condition, Scale, glide},
+};
+use crate::model::{
+    coefficients::{Anchoring, Parameter, Shape, Study},
     vehicle::Vehicle,
 };
 

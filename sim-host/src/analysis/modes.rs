@@ -8,11 +8,10 @@ use nalgebra::{Complex, Const, Matrix4, SMatrix, Vector3, Vector4};
 use num_dual::{DualNum, DualSVec, DualSVec64};
 use serde::Serialize;
 
-use crate::{
-    helix::Helix,
+use crate::analysis::{helix::Helix, trim::Glide};
+use crate::model::{
     plant::{Plant, State, quaternion_from_euler},
     real::Real,
-    trim::Glide,
     vehicle::Vehicle,
 };
 

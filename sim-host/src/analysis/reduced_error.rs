@@ -2,20 +2,21 @@
 
 use shared::{
     autopilot::Autopilot,
+    commands::Phase,
     device::TICK_S,
-    mission::{Course, Phase},
-    number::{Fixed, Number},
-    reduced::{Drive, Model, Motion},
-    table::TrimTable,
+    mission::Course,
+    model::{
+        number::{Fixed, Number},
+        reduced::{Drive, Model, Motion},
+        table::TrimTable,
+    },
 };
 
-use crate::{
-    flight::{FlyingVehicle, fly},
-    mission_file::MissionFile,
+use crate::analysis::table::{Envelope, describe, flight_vehicle, generate};
+use crate::flight::{FlyingVehicle, fly, mission_file::MissionFile, pilot::autopilot};
+use crate::model::{
     ocean::Ocean,
-    pilot::autopilot,
     plant::{State, euler_from_quaternion},
-    table::{Envelope, describe, flight_vehicle, generate},
     vehicle::Vehicle,
 };
 

@@ -5,10 +5,12 @@ use std::f64::consts::FRAC_PI_2;
 use nalgebra::{Vector3, Vector4};
 use serde::Serialize;
 
-pub use crate::helix::Scale;
-use crate::{
+pub use crate::analysis::helix::Scale;
+use crate::analysis::{
     helix::{Helix, HelixSolver, Slope, Turn},
     performance::{Polar, PolarPoint},
+};
+use crate::model::{
     plant::{Plant, State, quaternion_from_euler},
     vehicle::Vehicle,
 };

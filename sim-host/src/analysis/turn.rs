@@ -5,11 +5,11 @@
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 
-use crate::{
+use crate::analysis::{
     helix::{Helix, HelixSolver, Slope, Turn},
     trim::Glide,
-    vehicle::{MomentFrame, Vehicle},
 };
+use crate::model::vehicle::{MomentFrame, Vehicle};
 
 /// Step of the walk along the branch of turns, rad.
 const STEP_RAD: f64 = 0.02;

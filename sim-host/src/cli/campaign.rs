@@ -3,17 +3,14 @@
 use std::{fs, io::Write, num::NonZero, path::PathBuf, thread};
 
 use serde::Serialize;
-use shared::table::TrimTable;
+use shared::model::table::TrimTable;
 
 use super::progress;
-use crate::{
-    campaign::{self, Campaign, Pilots, Tally, Water},
-    flight::FlyingVehicle,
-    mission_file::MissionFile,
-    table::{Envelope, describe, generate},
-    vehicle::Vehicle,
-    whole_file,
-};
+use crate::analysis::table::{Envelope, describe, generate};
+use crate::files::whole_file;
+use crate::flight::{FlyingVehicle, mission_file::MissionFile};
+use crate::model::vehicle::Vehicle;
+use crate::studies::campaign::{self, Campaign, Pilots, Tally, Water};
 
 /// Fastest steady current that a flight may meet, m/s; a glider makes half of one.
 const CURRENT_M_S: f64 = 3.0;

@@ -2,11 +2,9 @@
 
 use std::{fs, io::Write, path::PathBuf};
 
-use crate::{
-    design::{Candidate, Design, Front, Spec, design, vehicle_toml},
-    vehicle::Vehicle,
-    whole_file,
-};
+use crate::analysis::design::{Candidate, Design, Front, Spec, design, vehicle_toml};
+use crate::files::whole_file;
+use crate::model::vehicle::Vehicle;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {

@@ -1,11 +1,8 @@
 //! `glider endurance`: how far and how long a battery lasts, ideal and realistic side by side.
 
 use super::size::{ShapeArgs, describe_size};
-use crate::{
-    ocean::Ocean,
-    performance::{Account, Endurance, Sizing},
-    vehicle::Vehicle,
-};
+use crate::analysis::performance::{Account, Endurance, Sizing};
+use crate::model::{ocean::Ocean, vehicle::Vehicle};
 
 /// The paper's battery, for a vehicle file without one, J.
 const PAPER_BATTERY_J: f64 = 540e3;

@@ -1,6 +1,6 @@
 //! What a trim table shall cover, on the command line.
 
-use crate::table::Envelope;
+use crate::analysis::table::Envelope;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct EnvelopeArgs {

@@ -7,21 +7,22 @@ use std::{
 };
 
 use serde::Serialize;
-use shared::{table::TrimTable, wire::Configuration};
+use shared::{model::table::TrimTable, wire::Configuration};
 
 use super::progress::Progress;
-use crate::{
-    campaign::Drawn,
+use crate::analysis::table::{Envelope, describe, generate};
+use crate::files::whole_file;
+use crate::flight::{
+    FlyingVehicle, Summary,
     faults_file::FaultsFile,
-    flight::{FlyingVehicle, Summary, fly},
+    fly,
     mission_file::MissionFile,
-    ocean::Ocean,
     pilot::ready,
     record::{Record, Sample},
-    report::{self, Flight},
-    table::{Envelope, describe, generate},
-    whole_file,
 };
+use crate::model::ocean::Ocean;
+use crate::pages::report::{self, Flight};
+use crate::studies::campaign::Drawn;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {

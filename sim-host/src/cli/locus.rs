@@ -5,13 +5,13 @@ use std::{io::Write, path::PathBuf};
 use serde::Serialize;
 
 use super::{size::AnchoringArgs, trim::GlideArgs};
-use crate::{
-    chart::Figure,
+use crate::analysis::{
     locus::{Loci, Locus, Varied, vary},
     modes::RollKinematics,
     paper::loci::panel,
-    whole_file,
 };
+use crate::files::whole_file;
+use crate::pages::chart::Figure;
 
 #[derive(Debug, clap::Args)]
 #[command(group(clap::ArgGroup::new("condition").required(true)))]

@@ -3,14 +3,14 @@
 use std::{fs, io::Write, num::NonZero, path::PathBuf, thread};
 
 use serde::Serialize;
-use shared::{parameters::Parameters, table::TrimTable};
+use shared::{model::table::TrimTable, parameters::Parameters};
 
 use super::envelope::EnvelopeArgs;
-use crate::{
+use crate::analysis::{
     margins::{self, ENOUGH_GAIN, Envelope, Loop, Margins},
     table::{describe, generate},
-    whole_file,
 };
+use crate::files::whole_file;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {

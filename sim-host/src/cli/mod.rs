@@ -29,7 +29,8 @@ use std::{
 use clap::{Parser, Subcommand};
 use serde::Serialize;
 
-use crate::{eval, vehicle::Vehicle};
+use crate::analysis::eval;
+use crate::model::vehicle::Vehicle;
 
 /// Underwater gliders: see how one flies before cutting metal, and fly what was seen.
 #[derive(Debug, Parser)]

@@ -4,14 +4,12 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
-use crate::{
-    paper::{
-        VEHICLE,
-        comparison::{Row, Trend},
-        reproduce,
-    },
-    vehicle::Vehicle,
+use crate::analysis::paper::{
+    VEHICLE,
+    comparison::{Row, Trend},
+    reproduce,
 };
+use crate::model::vehicle::Vehicle;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {

@@ -3,18 +3,16 @@
 use std::{fs, io::Write, num::NonZero, path::PathBuf, thread};
 
 use serde::Serialize;
-use shared::table::TrimTable;
+use shared::model::table::TrimTable;
 
 use super::{campaign::check_current, progress};
-use crate::{
+use crate::analysis::table::{Envelope, describe, generate};
+use crate::files::whole_file;
+use crate::flight::{FlyingVehicle, mission_file::MissionFile, pilot::ready};
+use crate::model::ocean::Ocean;
+use crate::studies::{
     campaign::Spread,
-    flight::FlyingVehicle,
-    mission_file::MissionFile,
-    ocean::Ocean,
-    pilot::ready,
     plan::{self, Limit, Plan, Planned, Surfacing},
-    table::{Envelope, describe, generate},
-    whole_file,
 };
 
 #[derive(Debug, clap::Args)]

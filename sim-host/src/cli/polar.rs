@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::performance::{Polar, PolarPoint};
+use crate::analysis::performance::{Polar, PolarPoint};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {

@@ -6,12 +6,10 @@ use std::{
     path::PathBuf,
 };
 
-use shared::table::TrimTable;
+use shared::model::table::TrimTable;
 
-use crate::{
-    replay::{Replay, replay},
-    table::describe,
-};
+use crate::analysis::table::describe;
+use crate::flight::replay::{Replay, replay};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {

@@ -1,6 +1,6 @@
 //! `glider schema`: what a file may hold, for editors that complete and check it.
 
-use crate::mission_file::MissionFile;
+use crate::flight::mission_file::MissionFile;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {

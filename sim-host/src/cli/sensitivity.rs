@@ -3,11 +3,11 @@
 use std::{io::Write, path::PathBuf};
 
 use super::{size::AnchoringArgs, trim::GlideArgs};
-use crate::{
+use crate::analysis::{
     modes::RollKinematics,
     sensitivity::{Effect, Merit, Sensitivities, sensitivities},
-    whole_file,
 };
+use crate::files::whole_file;
 
 #[derive(Debug, clap::Args)]
 #[command(group(clap::ArgGroup::new("condition").required(true)))]

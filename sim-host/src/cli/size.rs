@@ -2,9 +2,9 @@
 
 use serde::Serialize;
 
-use crate::{
+use crate::analysis::performance::{Hold, Size, Sizing};
+use crate::model::{
     coefficients::{Anchoring, Parameter, Shape, Study},
-    performance::{Hold, Size, Sizing},
     vehicle::Vehicle,
 };
 

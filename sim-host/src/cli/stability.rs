@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::trim::GlideArgs;
-use crate::{
+use crate::analysis::{
     modes::{ModeSet, RollKinematics, modes},
     turn::{Authorities, Authority, Sensitivities, Sensitivity, Turns},
 };

@@ -2,13 +2,10 @@
 
 use std::{io::Write, path::PathBuf};
 
-use crate::{
-    faults_file::FaultsFile,
-    flight::FlyingVehicle,
-    swing::{section, swing, vehicle_file},
-    vehicle::Vehicle,
-    whole_file,
-};
+use crate::files::whole_file;
+use crate::flight::{FlyingVehicle, faults_file::FaultsFile};
+use crate::model::vehicle::Vehicle;
+use crate::studies::swing::{section, swing, vehicle_file};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {

@@ -3,13 +3,11 @@
 use std::{io::Write, path::PathBuf};
 
 use serde::Serialize;
-use shared::table::TrimTable;
+use shared::model::table::TrimTable;
 
 use super::envelope::EnvelopeArgs;
-use crate::{
-    table::{InterpolationError, TableErrors, describe, generate, measure},
-    whole_file,
-};
+use crate::analysis::table::{InterpolationError, TableErrors, describe, generate, measure};
+use crate::files::whole_file;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {

@@ -5,7 +5,7 @@ use std::{fs, num::NonZero, path::PathBuf, thread};
 use serde::Serialize;
 
 use super::progress;
-use crate::trials::{self, Claim, Flights, GlideMargins, TRIALS};
+use crate::studies::trials::{self, Claim, Flights, GlideMargins, TRIALS};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {

@@ -2,12 +2,10 @@
 
 use std::{io::Write, path::PathBuf};
 
-use crate::{
-    draw::{DrawnGlide, sheet},
-    trim::{Condition, Glide, Scale, glide},
-    vehicle::Vehicle,
-    whole_file,
-};
+use crate::analysis::trim::{Condition, Glide, Scale, glide};
+use crate::files::whole_file;
+use crate::model::vehicle::Vehicle;
+use crate::pages::draw::{DrawnGlide, sheet};
 
 /// Which glide, and how fast.
 #[derive(Debug, clap::Args)]

@@ -18,18 +18,18 @@
 //!   vehicle integrates by itself and this one is symmetric. No damping: it only added moves.
 
 use shared::{
-    device::{Commands, Learned, MM_PER_M, Measurements, TICK_HZ},
-    guidance::Aim,
+    commands::{Abort, Aim, Commands, Learned, Phase},
+    control::servo::{Move, Servo},
+    device::{MM_PER_M, Measurements, TICK_HZ},
+    estimate::navigator::Navigator,
     math,
-    mission::{Course, Event, Executive, Mission, Phase, heading_of},
-    navigator::Navigator,
+    mission::{Course, Event, Executive, Mission, heading_of},
+    model::vehicle::{FlightVehicle, Range},
     parameters::Parameters,
-    servo::{Move, Servo},
-    supervisor::{Abort, Supervisor, Vitals, Watch},
-    vehicle::{FlightVehicle, Range},
+    safety::supervisor::{Supervisor, Vitals, Watch},
 };
 
-use crate::pilot::Pilot;
+use crate::flight::pilot::Pilot;
 
 /// Axial position, µm, from pitch, 0.01°: forward is nose down, hence the signs.
 const PITCH: Pid = Pid { gain: -30.0, gain_per_s: -4.0, gain_s: -60.0, period_s: 8, deadband_cdeg: 150.0 };

@@ -1,44 +1,31 @@
 //! A closed-loop flight: plant, motors and sensors around whoever flies.
 
-mod actuators;
-mod battery;
-mod faults;
-mod sensors;
-mod summary;
-
-pub use actuators::EnergyUsed;
-pub use battery::Cells;
-pub use faults::{Actuator, Drain, Dropout, Faults, Instrument, Seep, Stuck};
-pub use sensors::{AltimeterErrors, CompassErrors, HousekeepingErrors, PierCompass, PressureErrors, SensorErrors};
-pub use summary::{Loss, NorthEast, Outcome, Summary, Surfacing, TraceHash};
-
 use nalgebra::Vector3;
 use shared::{
-    device::{Commands, MM_PER_M, Measurements, TICK_HZ},
-    mission::{Mission, Phase},
+    commands::Commands,
+    device::{MM_PER_M, Measurements, TICK_HZ},
+    mission::Mission,
 };
 
-use crate::{
-    mission_file::Start,
-    ocean::{self, Ocean},
-    pilot::Pilot,
-    plant::{Particle, Plant, State, quaternion_from_euler, rk4_step},
-    vehicle::{Buoyancy, Energy, Limits, Vehicle},
+use super::{
+    EnergyUsed, FlyingVehicle, Loss, Summary, actuators::Actuators, mission_file::Start, pilot::Pilot,
+    sensors::Sensors, summary::Log,
 };
-use actuators::Actuators;
-use sensors::Sensors;
-use summary::Log;
+use crate::model::{
+    ocean::{self, Ocean},
+    plant::{Particle, Plant, State, quaternion_from_euler, rk4_step},
+};
 
 /// Duration of a tick, s.
 pub const TICK_S: f64 = 1.0 / TICK_HZ as f64;
 /// Integration steps per tick: fourth order at 0.25 s is 0.8 mm off after a whole dive (`tests/integration.rs`).
-const STEPS_PER_TICK: u32 = 1;
+pub(super) const STEPS_PER_TICK: u32 = 1;
 /// Duration of an integration step, s.
-const STEP_S: f64 = TICK_S / STEPS_PER_TICK as f64;
+pub(super) const STEP_S: f64 = TICK_S / STEPS_PER_TICK as f64;
 /// From the launch to the start of the mission, s.
 const SETTLING_S: u32 = 60;
 /// Time at the surface, mission over, for the position to be fixed, s.
-const LINGER_S: u32 = 60;
+pub(super) const LINGER_S: u32 = 60;
 /// A vehicle that is not back this long after its mission's time is up counts as lost, s.
 const LOST_AFTER_S: u32 = 6 * 3600;
 
@@ -63,44 +50,6 @@ pub struct Tick<'a> {
     pub pump_work_j: f64,
     /// Charge drawn from the battery so far, C.
     pub charge_c: f64,
-}
-
-/// A vehicle that has all it takes to fly.
-#[derive(Clone, Debug)]
-pub struct FlyingVehicle<'a> {
-    /// The vehicle.
-    pub vehicle: &'a Vehicle,
-    /// Its buoyancy engine.
-    pub buoyancy: &'a Buoyancy,
-    /// Its electrical loads.
-    pub energy: &'a Energy,
-    /// Its limits.
-    pub limits: &'a Limits,
-    /// How its battery gives way.
-    pub cells: Cells,
-    /// How large the errors of its instruments are.
-    pub sensor_errors: SensorErrors,
-    /// What goes wrong.
-    pub faults: Faults,
-}
-
-impl<'a> FlyingVehicle<'a> {
-    /// Checks that the vehicle file has the sections that flying needs; sound devices with the usual errors.
-    ///
-    /// # Errors
-    /// One line that names the missing section.
-    pub fn new(vehicle: &'a Vehicle) -> Result<Self, String> {
-        let lacks = |section: &str| format!("{}: flying needs the section [{section}]", vehicle.name);
-        Ok(Self {
-            vehicle,
-            buoyancy: vehicle.buoyancy.as_ref().ok_or_else(|| lacks("buoyancy"))?,
-            energy: vehicle.energy.as_ref().ok_or_else(|| lacks("energy"))?,
-            limits: vehicle.limits.as_ref().ok_or_else(|| lacks("limits"))?,
-            cells: Cells::default(),
-            sensor_errors: SensorErrors::default(),
-            faults: Faults::default(),
-        })
-    }
 }
 
 /// Flies a mission from the surface back to the surface; `observe` sees every tick.
@@ -195,19 +144,4 @@ fn afloat(
         state = rk4_step(plant, &state, &Particle::Driven { u_b_m3_s: 0.0 }, STEP_S, &water);
     }
     state
-}
-
-/// Whether a phase belongs to the end of a flight.
-fn is_over(phase: Phase) -> Option<Outcome> {
-    match phase {
-        Phase::Complete => Some(Outcome::Completed),
-        Phase::Recovery => Some(Outcome::Aborted),
-        Phase::Surface
-        | Phase::Dive
-        | Phase::Drift
-        | Phase::Apogee
-        | Phase::Climb
-        | Phase::Crest
-        | Phase::Surfacing => None,
-    }
 }

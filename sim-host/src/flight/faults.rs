@@ -1,6 +1,6 @@
 //! What may go wrong with the simulated devices.
 
-use shared::device::Commands;
+use shared::commands::Commands;
 
 /// Faults of one flight; none by default.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -8,7 +8,7 @@ pub struct Faults {
     /// Sea water into the hull: weight that no potentiometer shows. The rate is that at 1 MPa and goes with √p.
     pub leak: Seep,
     /// Back through a valve that does not close, or a piston that gives way: the potentiometer shows it. The rate is that of a
-    /// full pressure difference; see [`crate::vehicle::Buoyancy::bleed_rate_at_m3_s`].
+    /// full pressure difference; see [`crate::model::vehicle::Buoyancy::bleed_rate_at_m3_s`].
     pub uncommanded_bleed: Seep,
     /// Gas into the hull, as air past a seal or out of a battery cell, measured at the air's pressure.
     pub gas: Seep,

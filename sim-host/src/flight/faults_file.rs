@@ -24,23 +24,21 @@
 //! noise_pa = 50
 //! ```
 
-use crate::{
-    flight::{
-        Actuator, AltimeterErrors, Cells, CompassErrors, Drain, Dropout, Faults, FlyingVehicle, HousekeepingErrors,
-        Instrument, PressureErrors, Seep, SensorErrors, Stuck,
-    },
-    toml_file::{self, FileError, Rule, Section},
+use crate::files::toml_file::{self, FileError, Rule, Section};
+use crate::flight::{
+    Actuator, AltimeterErrors, Cells, CompassErrors, Drain, Dropout, Faults, FlyingVehicle, HousekeepingErrors,
+    Instrument, PressureErrors, Seep, SensorErrors, Stuck,
 };
 
 /// Faults that need no file: name, file it comes from, text.
 pub const EMBEDDED: &[(&str, &str, &str)] = &[
-    ("none", "faults/none.toml", include_str!("../faults/none.toml")),
-    ("leak", "faults/leak.toml", include_str!("../faults/leak.toml")),
-    ("dead-pressure", "faults/dead-pressure.toml", include_str!("../faults/dead-pressure.toml")),
-    ("compass-deviation", "faults/compass-deviation.toml", include_str!("../faults/compass-deviation.toml")),
-    ("altimeter-dropout", "faults/altimeter-dropout.toml", include_str!("../faults/altimeter-dropout.toml")),
-    ("weak-battery", "faults/weak-battery.toml", include_str!("../faults/weak-battery.toml")),
-    ("stuck-pump", "faults/stuck-pump.toml", include_str!("../faults/stuck-pump.toml")),
+    ("none", "faults/none.toml", include_str!("../../faults/none.toml")),
+    ("leak", "faults/leak.toml", include_str!("../../faults/leak.toml")),
+    ("dead-pressure", "faults/dead-pressure.toml", include_str!("../../faults/dead-pressure.toml")),
+    ("compass-deviation", "faults/compass-deviation.toml", include_str!("../../faults/compass-deviation.toml")),
+    ("altimeter-dropout", "faults/altimeter-dropout.toml", include_str!("../../faults/altimeter-dropout.toml")),
+    ("weak-battery", "faults/weak-battery.toml", include_str!("../../faults/weak-battery.toml")),
+    ("stuck-pump", "faults/stuck-pump.toml", include_str!("../../faults/stuck-pump.toml")),
 ];
 
 const INSTRUMENTS: [(&str, Instrument); 9] = [

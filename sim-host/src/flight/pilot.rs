@@ -2,13 +2,16 @@
 
 use shared::{
     autopilot::{Autopilot, ConfigurationError},
-    device::{Commands, Measurements},
+    commands::Commands,
+    device::Measurements,
     mission::Mission,
+    model::table::TrimTable,
     parameters::Parameters,
-    table::TrimTable,
 };
 
-use crate::{flight::FlyingVehicle, mission_file::MissionFile, ocean::Ocean, toml_file::FileError, vehicle::Water};
+use crate::files::toml_file::FileError;
+use crate::flight::{FlyingVehicle, mission_file::MissionFile};
+use crate::model::{ocean::Ocean, vehicle::Water};
 
 /// Answers one tick of measurements with commands.
 pub trait Pilot {

@@ -3,13 +3,12 @@
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 use shared::{
-    device::{Commands, MM_PER_M, TICK_HZ},
-    mission::Phase,
-    supervisor::Abort,
+    commands::{Abort, Commands, Phase},
+    device::{MM_PER_M, TICK_HZ},
 };
 
-use super::{EnergyUsed, LINGER_S, TICK_S, Tick, actuators::Actuators, is_over};
-use crate::mission_file::{M_PER_DEG, Start};
+use super::{EnergyUsed, TICK_S, Tick, actuators::Actuators, closed_loop::LINGER_S};
+use crate::flight::mission_file::{M_PER_DEG, Start};
 
 /// How a flight ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -100,6 +99,21 @@ impl Summary {
     pub fn reason(&self) -> String {
         let loss = self.loss.map(|loss| format!("{loss:?}"));
         loss.into_iter().chain(self.aborts.iter().cloned()).collect::<Vec<_>>().join(" ")
+    }
+}
+
+/// Whether a phase belongs to the end of a flight.
+fn is_over(phase: Phase) -> Option<Outcome> {
+    match phase {
+        Phase::Complete => Some(Outcome::Completed),
+        Phase::Recovery => Some(Outcome::Aborted),
+        Phase::Surface
+        | Phase::Dive
+        | Phase::Drift
+        | Phase::Apogee
+        | Phase::Climb
+        | Phase::Crest
+        | Phase::Surfacing => None,
     }
 }
 

@@ -4,7 +4,8 @@ use std::{fs, io::Write, path::Path};
 
 use maud::{Markup, PreEscaped, html};
 
-use crate::{chart::Figure, page::page, whole_file};
+use crate::files::whole_file;
+use crate::pages::{chart::Figure, page::page};
 
 /// A title and what stands below it.
 #[derive(Clone, Debug)]

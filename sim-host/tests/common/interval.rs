@@ -6,7 +6,7 @@ use std::{
     ops::{Add, Mul, Neg, Sub},
 };
 
-use shared::number::{Fixed, Number};
+use shared::model::number::{Fixed, Number};
 
 /// All numbers from `low` to `high`. Making one that [`Fixed`] cannot hold panics.
 #[derive(Clone, Copy, Debug)]

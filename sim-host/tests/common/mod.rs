@@ -9,7 +9,7 @@ pub(crate) use interval::Interval;
 use nalgebra::{Matrix3, Vector3};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
-use sim_host::{
+use sim_host::model::{
     plant::{Input, Plant, State, quaternion_from_euler},
     vehicle::Vehicle,
 };

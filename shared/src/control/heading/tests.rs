@@ -1,5 +1,5 @@
 use super::*;
-use crate::table::tests::file;
+use crate::model::table::tests::file;
 
 fn mu_for(path_angle_rad: f32, error_cdeg: i32) -> i32 {
     let file = file();

@@ -6,14 +6,14 @@ use nalgebra::{Matrix3, Vector2, Vector3};
 
 use place::{from_origin_um, saturated_mm};
 
-use crate::{
-    device::{Attitude, GpsFix, MM_PER_M, Measurements, RAD_PER_CDEG, TICK_HZ, TICK_S, UM_PER_M},
-    estimate::{buoyancy::Buoyancy, drift::Drift},
-    math,
-    parameters::Parameters,
+use crate::device::{Attitude, GpsFix, MM_PER_M, Measurements, RAD_PER_CDEG, TICK_HZ, TICK_S, UM_PER_M};
+use crate::estimate::{buoyancy::Buoyancy, drift::Drift};
+use crate::math;
+use crate::model::{
     reduced::{Drive, Model, Motion},
     vehicle::FlightVehicle,
 };
+use crate::parameters::Parameters;
 
 /// Share of a depth innovation that is believed at once.
 const DEPTH_GAIN: f32 = 0.2;

@@ -1,9 +1,7 @@
 //! Places on the Earth, as a way north and east of an origin on a sphere.
 
-use crate::{
-    device::{GpsFix, MM_PER_M, RAD_PER_CDEG},
-    math,
-};
+use crate::device::{GpsFix, MM_PER_M, RAD_PER_CDEG};
+use crate::math;
 
 /// Metres per 1e-7° of latitude, on a sphere of 6371 km.
 const M_PER_E7: f32 = 0.011_119_493;

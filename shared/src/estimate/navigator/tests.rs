@@ -1,10 +1,8 @@
 //! Depth and its rate, dead reckoning, fixes.
 
 use super::*;
-use crate::{
-    compass::AxialField,
-    table::{TrimTable, tests::file},
-};
+use crate::model::compass::AxialField;
+use crate::model::table::{TrimTable, tests::file};
 
 fn at(pressure_pa: i32, heading_cdeg: u16) -> Measurements {
     Measurements {

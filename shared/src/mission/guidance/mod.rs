@@ -6,39 +6,17 @@
 //! is carried off slowest. Such a waypoint is given up for the next one when a surfacing finds the vehicle farther off than
 //! the surfacing before, and any waypoint when its time is up.
 
-use postcard_schema::Schema;
-use serde::{Deserialize, Serialize};
-
-use crate::{
-    device::{MM_PER_M, RAD_PER_CDEG, TICK_HZ, TURN_CDEG},
-    math,
-    mission::{Course, Executive, Mission, Mooring, Phase, Route, heading_of},
-    navigator::Navigator,
-};
+use crate::commands::Aim;
+use crate::commands::Phase;
+use crate::device::{MM_PER_M, RAD_PER_CDEG, TICK_HZ, TURN_CDEG};
+use crate::estimate::navigator::Navigator;
+use crate::math;
+use crate::mission::{Course, Executive, Mission, Mooring, Route, heading_of};
 
 /// Time between two looks at where a place lies, s: at 0.4 m/s a place 200 m off has then moved by 3°.
 const PERIOD_S: u32 = 30;
 /// Share of the mooring's radius within which gliding back to the station ends.
 const BACK_AT_STATION: f32 = 0.5;
-
-/// What a heading is for.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, Schema)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Aim {
-    /// A heading of the mission.
-    #[default]
-    Heading,
-    /// This waypoint, from 1.
-    Waypoint(u8),
-    /// This waypoint, in a current that cannot be stemmed.
-    UnstemmedWaypoint(u8),
-    /// No place: a steady turn.
-    Spiral,
-    /// The station of the mooring.
-    Station,
-    /// The station, in a current that cannot be stemmed.
-    UnstemmedStation,
-}
 
 /// A heading across a current.
 #[derive(Clone, Copy, Debug, PartialEq)]

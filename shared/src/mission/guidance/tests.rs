@@ -3,10 +3,8 @@
 use std::vec::Vec;
 
 use super::*;
-use crate::{
-    device::{GpsFix, Measurements, TICK_S},
-    table::{TrimTable, tests::file},
-};
+use crate::device::{GpsFix, Measurements, TICK_S};
+use crate::model::table::{TrimTable, tests::file};
 
 const SPEED_M_S: f32 = 0.4;
 /// 1e-7° of latitude per metre, and of longitude on the equator.

@@ -5,7 +5,7 @@
 //! Its steady state is the glide polar; through an inflection it keeps the speed that the quasi-steady balance forgets.
 //! [`turn`] adds the turn rate.
 //!
-//! It computes in any [`Number`]: `f32`, or [`crate::number::Fixed`] without an FPU. All its quantities are of the order of 1
+//! It computes in any [`Number`]: `f32`, or [`crate::model::number::Fixed`] without an FPU. All its quantities are of the order of 1
 //! whatever the vehicle's size, since forces are divided by its mass; state and drive are held to [`limits`], and between
 //! those no intermediate result overflows a `Fixed` (a test runs this same code over intervals).
 
@@ -13,7 +13,7 @@
 
 pub mod turn;
 
-use crate::{number::Number, vehicle::GlideConstants};
+use crate::model::{number::Number, vehicle::GlideConstants};
 
 /// What drives the model.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! The model on its own: the paper's glide, the same in both arithmetics, and what nonsense cannot do to it.
 
 use super::*;
-use crate::number::Fixed;
+use crate::model::number::Fixed;
 
 /// The paper's Slocum: trim of section 5.1 is 0.77 m/s at −35° with 0.2129 kg, α 1.2247°.
 pub(crate) const SLOCUM: GlideConstants = GlideConstants {

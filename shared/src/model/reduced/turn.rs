@@ -5,7 +5,7 @@
 //! for the middle of the envelope: slocum-paper's is 4 m on its usual dive, nothing on flat glides (they may even overshoot),
 //! and tens of metres near the control reversal of its dives.
 
-use crate::number::Number;
+use crate::model::number::Number;
 
 /// A turn rate on its way to a steady one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -28,7 +28,7 @@ impl<N: Number> TurnRate<N> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::number::Fixed;
+    use crate::model::number::Fixed;
 
     /// After a step the heading is behind by the turn length over the speed, to the second order of the time step.
     fn lag_s<N: Number>() -> f32 {

@@ -3,7 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Grid, Node, QUANTITIES, TrimTable};
-use crate::{math, vehicle::FlightVehicle, wire::crc32};
+use crate::checksum::crc32;
+use crate::math;
+use crate::model::vehicle::FlightVehicle;
 
 /// Version of the file format.
 pub const VERSION: u16 = 4;

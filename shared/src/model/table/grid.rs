@@ -3,7 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Envelope, NODE_BYTES, QUANTITIES};
-use crate::{device::RAD_PER_CDEG, math, vehicle::Range};
+use crate::device::RAD_PER_CDEG;
+use crate::math;
+use crate::model::vehicle::Range;
 
 const GRAMS_PER_KG: f32 = 1_000.0;
 

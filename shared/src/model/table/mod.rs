@@ -17,11 +17,9 @@ mod grid;
 pub use file::{Header, TableError, VERSION, write};
 pub use grid::{Axis, Grid};
 
-use crate::{
-    device::RAD_PER_CDEG,
-    math,
-    vehicle::{FlightVehicle, Range},
-};
+use crate::device::RAD_PER_CDEG;
+use crate::math;
+use crate::model::vehicle::{FlightVehicle, Range};
 
 /// Values stored in a node, in the order of [`Node`]'s fields.
 pub const QUANTITIES: usize = 7;

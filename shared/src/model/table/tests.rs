@@ -1,8 +1,8 @@
 //! A made-up vehicle's table: written, read, looked up, refused.
 
 use super::*;
-use crate::{
-    compass::Compass,
+use crate::model::compass::Compass;
+use crate::model::{
     reduced::tests::SLOCUM,
     vehicle::{Actuators, MotorPower},
 };

@@ -3,12 +3,14 @@
 use serde::Serialize;
 
 use super::{Drive, Objective, Spec};
-use crate::{
-    coefficients::{Anchoring, Coefficients, MassRule, Parameter, Shape, Study},
+use crate::analysis::{
     modes::{RollKinematics, modes},
     performance::{Hold, Size, Sizing},
     trim::{Condition, Scale, glide},
     turn::Turns,
+};
+use crate::model::{
+    coefficients::{Anchoring, Coefficients, MassRule, Parameter, Shape, Study},
     vehicle::{MomentFrame, Vehicle},
 };
 

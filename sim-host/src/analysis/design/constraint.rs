@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::{Candidate, Spec};
-use crate::coefficients::Parameter;
+use crate::model::coefficients::Parameter;
 
 /// A bound of one figure.
 #[derive(Clone, Debug)]

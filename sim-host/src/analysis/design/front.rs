@@ -6,7 +6,7 @@ use super::{
     Candidate, Constraint, Maker, Objective, placed,
     search::{Found, MET, Search},
 };
-use crate::chart::{Figure, Line, Mark, Panel, Place, Scale, Stroke};
+use crate::pages::chart::{Figure, Line, Mark, Panel, Place, Scale, Stroke};
 
 /// Geometries of which none is better in both.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -2,7 +2,7 @@
 //!
 //! Given are the mass of water that the hull displaces, what drives the glider (lung capacity, net mass or speed), depth and
 //! battery; everything is judged at the flattest glide, at the speed that the drive then gives, with the paper's closed forms
-//! ([`crate::performance`]) and the full equations for modes and turns. The body weighs what makes the hull neutral, its inertia
+//! ([`crate::analysis::performance`]) and the full equations for modes and turns. The body weighs what makes the hull neutral, its inertia
 //! and the moving mass keep their places in proportion; engine, battery and loads stay the vehicle's.
 //!
 //! # The paper's conclusions (section 6), and where they do not hold
@@ -31,7 +31,7 @@ pub use front::{Front, FrontPoint};
 pub use spec::{Drive, Limits, Objective, Spec};
 pub use vehicle_file::vehicle_toml;
 
-use crate::{coefficients::Parameter, vehicle::Vehicle};
+use crate::model::{coefficients::Parameter, vehicle::Vehicle};
 use candidate::Maker;
 use constraint::constraints;
 use search::{Found, MET, Search};

@@ -1,13 +1,11 @@
 //! The design file: what is given, what may vary, what must be kept, what is wanted.
 
-use crate::{
-    coefficients::{Anchoring, Parameter},
-    toml_file::{self, FileError, Rule, Section},
-};
+use crate::files::toml_file::{self, FileError, Rule, Section};
+use crate::model::coefficients::{Anchoring, Parameter};
 
 /// Designs that need no file: name, file it comes from, text.
 const EMBEDDED: &[(&str, &str, &str)] =
-    &[("default", "designs/default.toml", include_str!("../../designs/default.toml"))];
+    &[("default", "designs/default.toml", include_str!("../../../designs/default.toml"))];
 /// Longest path to a vehicle, characters.
 const PATH_CHARS: usize = 4096;
 /// Longest name of a vehicle, characters.

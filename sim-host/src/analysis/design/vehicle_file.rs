@@ -4,7 +4,7 @@ use nalgebra::Matrix3;
 use toml_edit::{Array, DocumentMut, InlineTable, Item, Table, Value};
 
 use super::{Candidate, Spec};
-use crate::{
+use crate::model::{
     coefficients::{Anchoring, Parameter},
     vehicle::{MomentFrame, Vehicle},
 };

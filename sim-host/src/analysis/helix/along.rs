@@ -10,7 +10,7 @@ use super::{
     Helix, Scale, Slope, Turn, Unknowns,
     search::{Asked, residual},
 };
-use crate::{plant::Plant, real::Real};
+use crate::model::{plant::Plant, real::Real};
 
 /// A value and its derivative by one parameter.
 pub(crate) type Along = DualSVec64<1>;

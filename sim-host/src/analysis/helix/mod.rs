@@ -6,7 +6,7 @@ mod search;
 
 use nalgebra::{SVector, Vector3};
 
-use crate::{
+use crate::model::{
     plant::{Plant, State, quaternion_from_euler},
     real::Real,
 };

@@ -6,7 +6,7 @@ use nalgebra::{Const, SMatrix};
 use num_dual::{DualNum, DualSVec, DualSVec64};
 
 use super::{Helix, Scale, Slope, Turn, Unknowns, climb, steady_state};
-use crate::{plant::Plant, real::Real, vehicle::Vehicle};
+use crate::model::{plant::Plant, real::Real, vehicle::Vehicle};
 
 const MOST_ITERATIONS: usize = 30;
 /// Residual force and moment, N and N m, and angles, rad: rounding of terms of some hundred newtons.

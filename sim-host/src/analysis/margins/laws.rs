@@ -3,13 +3,14 @@
 //! A deadband lets nothing through or the whole error, so its describing function lies between 0 and 1: it never adds gain.
 
 use shared::{
+    control::{
+        heading::{HeadingLoop, TurnTrim},
+        pitch::{PitchLoop, PitchTrim, Steady},
+        servo::{Move, Servo},
+    },
     device::{RAD_PER_CDEG, TICK_HZ, UM_PER_M},
-    heading::{HeadingLoop, TurnTrim},
+    model::{table::TrimTable, vehicle::Range},
     parameters::Parameters,
-    pitch::{PitchLoop, PitchTrim, Steady},
-    servo::{Move, Servo},
-    table::TrimTable,
-    vehicle::Range,
 };
 
 /// Error that is put to the laws, 0.01°: far above their rounding, within their limits.

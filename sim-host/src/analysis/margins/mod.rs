@@ -23,23 +23,25 @@ use std::num::NonZero;
 use nalgebra::{DMatrix, DVector, RowDVector};
 use serde::Serialize;
 use shared::{
+    control::pitch::Steady,
     device::{RAD_PER_CDEG, TICK_HZ, TICK_S},
     mission::Mission,
+    model::{
+        table::{Grid, TrimTable},
+        vehicle::FlightVehicle,
+    },
     parameters::Parameters,
-    pitch::Steady,
-    table::{Grid, TrimTable},
-    vehicle::FlightVehicle,
 };
 
 pub use picture::figure;
 pub use sampled::{Law, Margins, SampledLoop, held};
 
-use crate::{
+use crate::analysis::{
     modes::{Linearised, RollKinematics, linearised},
-    parallel,
     trim::{Condition, Glide, Scale, glide},
-    vehicle::Vehicle,
 };
+use crate::model::vehicle::Vehicle;
+use crate::parallel;
 use laws::{Laws, servo_per_s};
 
 /// Places of q, θ, r and the number of states in [`Linearised`].

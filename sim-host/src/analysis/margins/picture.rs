@@ -1,7 +1,7 @@
 //! Margins over the envelope, as curves: path angle along, a colour per net mass.
 
 use super::{ENOUGH_GAIN, Envelope, Margins, Node};
-use crate::chart::{Figure, Line, Panel, Scale, Stroke};
+use crate::pages::chart::{Figure, Line, Panel, Scale, Stroke};
 
 /// Both margins of both loops.
 #[must_use]

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::document::{self, Block, Column, Table};
+use crate::pages::document::{self, Block, Column, Table};
 
 /// One printed value and ours.
 #[derive(Clone, Debug, PartialEq, Serialize)]

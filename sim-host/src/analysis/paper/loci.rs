@@ -4,14 +4,16 @@ use super::{
     Reproduction,
     comparison::{Reading, Trend},
 };
-use crate::{
-    chart::{Figure, Line, Mark, Panel, Place, Scale as Axis, Stroke},
-    coefficients::{Anchoring, Parameter, Study},
+use crate::analysis::{
     locus::{Locus, Varied, vary},
     modes::RollKinematics,
     trim::{Condition, Scale},
+};
+use crate::model::{
+    coefficients::{Anchoring, Parameter, Study},
     vehicle::Vehicle,
 };
+use crate::pages::chart::{Figure, Line, Mark, Panel, Place, Scale as Axis, Stroke};
 
 /// Section 5.2 keeps the speed for both flight conditions, m/s.
 const SPEED_M_S: f64 = 0.77;

@@ -8,11 +8,11 @@ pub mod turning;
 
 use std::path::Path;
 
-use crate::{
+use crate::files::whole_file;
+use crate::model::vehicle::Vehicle;
+use crate::pages::{
     chart::Figure,
     document::{Block, Document},
-    vehicle::Vehicle,
-    whole_file,
 };
 use comparison::{Row, Trend};
 

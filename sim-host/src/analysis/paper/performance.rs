@@ -4,13 +4,13 @@ use super::{
     Reproduction,
     comparison::{Reading, Row, Trend},
 };
-use crate::{
-    chart::{Figure, Line, Mark, Panel, Place, Scale, Stroke, contours},
+use crate::analysis::performance::{Account, Endurance, Hold, Polar, PolarPoint, Size, Sizing};
+use crate::model::{
     coefficients::{Anchoring, Parameter, Shape, Study},
     ocean::Ocean,
-    performance::{Account, Endurance, Hold, Polar, PolarPoint, Size, Sizing},
     vehicle::Vehicle,
 };
+use crate::pages::chart::{Figure, Line, Mark, Panel, Place, Scale, Stroke, contours};
 
 /// Parameters of Figs 7 and 8 in the paper's order, with the values that are drawn: the nominal one in the middle. The paper's
 /// own ranges are not legible.

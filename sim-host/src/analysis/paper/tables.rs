@@ -1,11 +1,11 @@
 //! The trim of section 5.1, Table 1 and Table 2 beside ours.
 
 use super::comparison::Row;
-use crate::{
+use crate::analysis::{
     modes::{ModeSet, RollKinematics, modes},
     trim::{Condition, Scale, glide},
-    vehicle::Vehicle,
 };
+use crate::model::vehicle::Vehicle;
 
 /// An eigenvalue as printed, and its eigenvector as [magnitude, angle in degrees].
 ///

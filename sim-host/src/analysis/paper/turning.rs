@@ -5,14 +5,16 @@ use super::{
     Reproduction,
     comparison::{Reading, Trend},
 };
-use crate::{
-    chart::{Figure, Line, Mark, Panel, Place, Scale as Axis, Stroke},
-    coefficients::{Anchoring, Parameter, Study},
+use crate::analysis::{
     locus::Varied,
     trim::{Condition, Scale, glide},
     turn::{Sensitivity, Turns, equations_14_to_16},
+};
+use crate::model::{
+    coefficients::{Anchoring, Parameter, Study},
     vehicle::Vehicle,
 };
+use crate::pages::chart::{Figure, Line, Mark, Panel, Place, Scale as Axis, Stroke};
 
 /// The glide of section 5.1.
 const CONDITION: Condition = Condition::PathAngle(-35.0 * std::f64::consts::PI / 180.0);

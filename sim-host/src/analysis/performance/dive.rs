@@ -11,11 +11,11 @@
 use nalgebra::Vector3;
 use serde::Serialize;
 
-use crate::{
-    flight::FlyingVehicle,
+use crate::analysis::trim::Glide;
+use crate::flight::FlyingVehicle;
+use crate::model::{
     ocean::Ocean,
     plant::Surroundings,
-    trim::Glide,
     vehicle::{Buoyancy, Energy, Vehicle},
 };
 

@@ -7,11 +7,8 @@
 use serde::Serialize;
 
 use super::{DiveEnergy, Size, Sizing, Yo};
-use crate::{
-    coefficients::Shape,
-    ocean::Ocean,
-    trim::{Condition, Scale, glide},
-};
+use crate::analysis::trim::{Condition, Scale, glide};
+use crate::model::{coefficients::Shape, ocean::Ocean};
 
 /// Dives that a battery pays for.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

@@ -4,7 +4,7 @@
 
 use serde::Serialize;
 
-use crate::{real::Real, vehicle::Hydrodynamics};
+use crate::model::{real::Real, vehicle::Hydrodynamics};
 
 /// C_D = C_D0 + K C_L².
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -29,7 +29,9 @@ use std::f64::consts::PI;
 use serde::Serialize;
 
 use super::{Polar, PolarPoint};
-use crate::coefficients::{BoundaryLayer, CRITICAL_REYNOLDS_HULL, CRITICAL_REYNOLDS_WING, Parameter, Shape, Study};
+use crate::model::coefficients::{
+    BoundaryLayer, CRITICAL_REYNOLDS_HULL, CRITICAL_REYNOLDS_WING, Parameter, Shape, Study,
+};
 
 /// Slowest and fastest speed that is looked for, m/s.
 const SPEEDS_M_S: [f64; 2] = [1e-3, 1e2];

@@ -3,7 +3,7 @@
 use nalgebra::{Complex, Matrix4};
 
 use super::{Value, value};
-use crate::{
+use crate::analysis::{
     helix::{Along, rate, with_rate},
     modes::{ModeSet, null_vector},
 };

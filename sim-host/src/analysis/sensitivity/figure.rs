@@ -1,7 +1,7 @@
 //! Ranked bars: one panel per figure of merit, what counts most on top.
 
 use super::{Effect, Merit, Sensitivities};
-use crate::chart::{Figure, Line, Mark, Panel, Place, Scale, Stroke};
+use crate::pages::chart::{Figure, Line, Mark, Panel, Place, Scale, Stroke};
 
 /// Rows that a panel has room for at least.
 const LEAST_ROWS: usize = 8;

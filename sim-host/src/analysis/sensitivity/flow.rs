@@ -2,11 +2,11 @@
 
 use serde::Serialize;
 
-use crate::coefficients::{BoundaryLayer, CRITICAL_REYNOLDS_HULL, CRITICAL_REYNOLDS_WING, Parameter, Shape, Stream};
-use crate::{
-    helix::{Along, rate, with_rate},
-    real::Real,
+use crate::analysis::helix::{Along, rate, with_rate};
+use crate::model::coefficients::{
+    BoundaryLayer, CRITICAL_REYNOLDS_HULL, CRITICAL_REYNOLDS_WING, Parameter, Shape, Stream,
 };
+use crate::model::real::Real;
 
 /// Change of a parameter within which a switch is told, of its value.
 const WITHIN: f64 = 0.2;

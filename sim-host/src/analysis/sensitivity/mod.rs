@@ -5,7 +5,7 @@
 //! glide then is), and the speed or the net mass that was asked for. The speed's own figure always holds the net mass.
 //!
 //! How: the coefficients, the added mass and hence the plant carry the derivative by the parameter; the trim and its linearisation
-//! carry, outside of it, that by the plant's eight unknowns ([`crate::helix`]). So dA is exact, and with the right and left
+//! carry, outside of it, that by the plant's eight unknowns ([`crate::analysis::helix`]). So dA is exact, and with the right and left
 //! eigenvectors v and w of A, dλ = wᵀ dA v/(wᵀ v) (Lancaster, *Numerische Mathematik* 6, 1964). Where the fastest turn lies at
 //! a reversal, its μ moves without effect to first order (the envelope theorem), so it is held.
 //!
@@ -20,15 +20,17 @@ use serde::Serialize;
 
 pub use flow::{Flow, Switch};
 
-use crate::{
-    coefficients::{Anchoring, Parameter, Shape, Study},
+use crate::analysis::{
     helix::{Along, Helix, HelixAlong, Nested, Scale as HelixScale, Slope, Turn, rate, with_rate},
     modes::{Modes, RollKinematics, jacobian, modes},
     performance::Polar,
-    plant::Plant,
-    real::Real,
     trim::{Condition, Glide, Scale, glide},
     turn::Turns,
+};
+use crate::model::{
+    coefficients::{Anchoring, Parameter, Shape, Study},
+    plant::Plant,
+    real::Real,
     vehicle::Vehicle,
 };
 

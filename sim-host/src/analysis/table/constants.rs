@@ -1,9 +1,9 @@
 //! What the controller must know of the vehicle, from its file.
 
-use shared::vehicle::{Actuators, FlightVehicle, GlideConstants, MotorPower, Range};
+use shared::model::vehicle::{Actuators, FlightVehicle, GlideConstants, MotorPower, Range};
 
 use super::{Envelope, gain::critical_heading_gains, lag::turn_lengths_m};
-use crate::vehicle::{Buoyancy, Compass, Energy, Limits, Vehicle, Water};
+use crate::model::vehicle::{Buoyancy, Compass, Energy, Limits, Vehicle, Water};
 
 /// What the controller must know of the vehicle, for flights in an envelope.
 ///

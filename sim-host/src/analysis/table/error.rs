@@ -1,9 +1,9 @@
 //! How well a table interpolates, against exact motions.
 
-use shared::table::{Glide, Grid, TrimTable};
+use shared::model::table::{Glide, Grid, TrimTable};
 
 use super::helices::{Side, at};
-use crate::helix::Helix;
+use crate::analysis::helix::Helix;
 
 /// What a table's interpolation may be off by, anywhere in its envelope.
 pub const BOUND: Bound = Bound { speed: 0.005, turn_rate: 0.02, angle_rad: 0.2 / 180.0 * std::f64::consts::PI };

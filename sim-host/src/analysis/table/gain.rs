@@ -2,17 +2,17 @@
 
 use nalgebra::{DMatrix, DVector, RowDVector};
 use shared::{
+    control::heading::GAIN_PERIOD_S,
     device::{TICK_HZ, TICK_S},
-    heading::GAIN_PERIOD_S,
 };
 
 use super::Envelope;
-use crate::{
+use crate::analysis::{
     margins::{Law, SampledLoop, held},
     modes::{RollKinematics, linearised},
     trim::{Condition, Glide, Scale, glide},
-    vehicle::Vehicle,
 };
+use crate::model::vehicle::Vehicle;
 
 /// Places of the lateral states (v, p, r, φ) among the eight, and of r and ψ behind them.
 const LATERAL: usize = 4;

@@ -1,12 +1,12 @@
 //! The steady motions that a table stores, from the full equations.
 
-use shared::table::{Axis, Grid, Node};
+use shared::model::table::{Axis, Grid, Node};
 
-use crate::{
+use crate::analysis::{
     helix::{Helix, HelixSolver, Slope, Turn},
     trim::{Condition, Scale, wings_level},
-    vehicle::Vehicle,
 };
+use crate::model::vehicle::Vehicle;
 
 /// Largest rotation from one helix to the next, which Newton's method takes easily.
 const EASY_STEP_RAD: f64 = 0.3;

@@ -3,10 +3,12 @@
 use nalgebra::{Matrix4, Vector4};
 
 use super::Envelope;
-use crate::{
+use crate::analysis::{
     modes::{RollKinematics, modes},
-    plant::{Plant, State},
     trim::{Condition, Glide, Scale, glide},
+};
+use crate::model::{
+    plant::{Plant, State},
     vehicle::Vehicle,
 };
 
@@ -50,7 +52,7 @@ fn turn_length_m(vehicle: &Vehicle, glide: &Glide) -> Result<f64, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plant::{Particle, euler_from_quaternion, rk4_step};
+    use crate::model::plant::{Particle, euler_from_quaternion, rk4_step};
 
     /// The full plant after a step of μ by 1°: once its turn is steady, its heading is behind by the turn length. 5 %: the
     /// pitch gives way a little.

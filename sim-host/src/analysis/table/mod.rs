@@ -9,9 +9,10 @@ mod lag;
 pub use constants::flight_vehicle;
 pub use error::{BOUND, InterpolationError, TableErrors};
 
-use shared::table::{Axis, Grid, Header, QUANTITIES, TableError, TrimTable, write};
+use shared::model::table::{Axis, Grid, Header, QUANTITIES, TableError, TrimTable, write};
 
-use crate::{helix::HelixSolver, vehicle::Vehicle};
+use crate::analysis::helix::HelixSolver;
+use crate::model::vehicle::Vehicle;
 use error::worst_at;
 use helices::Side;
 
@@ -86,7 +87,7 @@ pub fn describe(error: &TableError) -> String {
         TableError::Corrupt => "the table is damaged: its CRC does not fit".into(),
         TableError::NotATable => "not a trim table".into(),
         TableError::OtherVersion(version) => {
-            format!("a trim table of version {version}; this program reads version {}", shared::table::VERSION)
+            format!("a trim table of version {version}; this program reads version {}", shared::model::table::VERSION)
         }
         TableError::Malformed => "the table's axes and nodes do not fit together".into(),
         TableError::OtherVehicle(hash) => format!("the table is for another vehicle, {hash:016x}; generate it anew"),

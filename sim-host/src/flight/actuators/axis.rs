@@ -1,6 +1,6 @@
 //! One drive of the moving mass: motor, screw or gear with play, brake, end stops.
 
-use crate::vehicle::{AxialDrive, MovingMass, RotationDrive};
+use crate::model::vehicle::{AxialDrive, MovingMass, RotationDrive};
 
 /// Speed of a motor without load over the speed that it is regulated to (chosen): so it slows from 20 % of its stall load on.
 const FREE_SPEED: f64 = 1.25;

@@ -1,7 +1,7 @@
 //! The buoyancy engine in flight: how much flows.
 
 use super::super::{Faults, TICK_S};
-use crate::vehicle::{Buoyancy, EngineKind};
+use crate::model::vehicle::{Buoyancy, EngineKind};
 
 /// Pressure at which a leak has the rate it is given by, Pa.
 const LEAK_PRESSURE_PA: f64 = 1e6;
@@ -60,7 +60,8 @@ impl Engine {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{flight::Seep, vehicle::Vehicle};
+    use crate::flight::Seep;
+    use crate::model::vehicle::Vehicle;
 
     const DEEP: (f64, f64, f64) = (0.0, 2e6, 100.0);
 

@@ -6,8 +6,8 @@
 use nalgebra::{Matrix2, Vector2};
 
 use super::axis::{Axis, Motor};
-use crate::{
-    flight::TICK_S,
+use crate::flight::TICK_S;
+use crate::model::{
     ocean::{Ocean, OceanFrom},
     plant::{Input, Medium, Particle, Plant, State, rk4_step},
     vehicle::{Drive, MovingMass},
@@ -139,7 +139,7 @@ mod tests {
     use nalgebra::Vector3;
 
     use super::*;
-    use crate::{
+    use crate::model::{
         plant::quaternion_from_euler,
         vehicle::{AxialDrive, RotationDrive, Vehicle},
     };

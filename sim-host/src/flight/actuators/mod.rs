@@ -4,10 +4,17 @@ mod axis;
 mod engine;
 mod mass_drive;
 
-use shared::device::{Commands, RAD_PER_CDEG, UL_PER_M3, UM_PER_M};
+use shared::{
+    commands::Commands,
+    device::{RAD_PER_CDEG, UL_PER_M3, UM_PER_M},
+};
 
-use super::{FlyingVehicle, STEP_S, STEPS_PER_TICK, TICK_S, battery::Battery};
-use crate::{
+use super::{
+    FlyingVehicle, TICK_S,
+    battery::Battery,
+    closed_loop::{STEP_S, STEPS_PER_TICK},
+};
+use crate::model::{
     ocean::{Ocean, Sample},
     plant::{Particle, Plant, State, rk4_step},
 };

@@ -3,12 +3,13 @@
 use std::time::Duration;
 
 use shared::{
-    device::{Commands, Measurements},
+    commands::Commands,
+    device::Measurements,
     wire::{Configuration, Hello, Message, PROTOCOL, SensorFrame},
 };
 
 use super::{Emulator, Stream};
-use crate::pilot::Pilot;
+use crate::flight::pilot::Pilot;
 
 /// Time to boot and say hello; a loaded machine is slow.
 const BOOT: Duration = Duration::from_secs(30);

@@ -160,7 +160,7 @@ mod tests {
     use std::io::{BufReader, Seek, SeekFrom};
 
     use super::*;
-    use crate::record::Frames;
+    use crate::flight::record::Frames;
 
     const SHORT: Duration = Duration::from_millis(50);
 
@@ -216,7 +216,7 @@ mod tests {
         assert!(ours.receive(SHORT).is_err());
         assert_eq!(ours.dropped(), 1);
         let content = (wire::schema() ^ 1).to_le_bytes();
-        let plain = [content, wire::crc32(&content).to_le_bytes()].concat();
+        let plain = [content, shared::checksum::crc32(&content).to_le_bytes()].concat();
         theirs.write_all(&[&[plain.len() as u8 + 1], plain.as_slice(), &[0]].concat()).unwrap();
         let error = ours.receive(SHORT).unwrap_err();
         assert!(error.contains("build both from the same sources"), "{error}");

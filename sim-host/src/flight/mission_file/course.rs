@@ -6,7 +6,7 @@ use shared::{
 };
 
 use super::{M_PER_DEG, Start, scaled, whole};
-use crate::toml_file::{Rule, Section};
+use crate::files::toml_file::{Rule, Section};
 
 /// Distance at which a waypoint counts as reached where the file does not say, m.
 const CAPTURE_RADIUS_M: f64 = 200.0;

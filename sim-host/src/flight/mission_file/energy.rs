@@ -1,9 +1,10 @@
 //! Whether the battery lasts for a mission.
 
-use shared::{device::RAD_PER_CDEG, mission::Mission, table::TrimTable};
+use shared::{device::RAD_PER_CDEG, mission::Mission, model::table::TrimTable};
 
 use super::MissionFile;
-use crate::{flight::FlyingVehicle, toml_file::FileError};
+use crate::files::toml_file::FileError;
+use crate::flight::FlyingVehicle;
 
 /// Joules per megajoule.
 const J_PER_MJ: f64 = 1e6;

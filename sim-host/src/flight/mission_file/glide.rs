@@ -1,9 +1,9 @@
 //! What a file asks of a glide: a path angle or a pitch, a net mass or a vertical speed.
 
-use shared::{device::RAD_PER_CDEG, table::TrimTable};
+use shared::{device::RAD_PER_CDEG, model::table::TrimTable};
 
 use super::{MissionFile, scaled};
-use crate::toml_file::{FileError, Rule, Section};
+use crate::files::toml_file::{FileError, Rule, Section};
 
 /// Largest net mass that the mission's integers hold, kg.
 const NET_MASS_KG: f64 = 32.0;

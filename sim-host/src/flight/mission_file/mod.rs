@@ -31,21 +31,21 @@ use shared::{
     parameters::{Parameters, ROWS},
 };
 
-use crate::toml_file::{self, FileError, Rule, Section};
+use crate::files::toml_file::{self, FileError, Rule, Section};
 use glide::Asked;
 
 /// Missions that need no file: name, file it comes from, text.
 const EMBEDDED: &[(&str, &str, &str)] = &[
-    ("default", "missions/default.toml", include_str!("../../missions/default.toml")),
-    ("fast-50", "missions/fast-50.toml", include_str!("../../missions/fast-50.toml")),
-    ("slow-50", "missions/slow-50.toml", include_str!("../../missions/slow-50.toml")),
-    ("slow-200", "missions/slow-200.toml", include_str!("../../missions/slow-200.toml")),
-    ("slow-1000", "missions/slow-1000.toml", include_str!("../../missions/slow-1000.toml")),
-    ("legs", "missions/legs.toml", include_str!("../../missions/legs.toml")),
-    ("zigzag", "missions/zigzag.toml", include_str!("../../missions/zigzag.toml")),
-    ("waypoints", "missions/waypoints.toml", include_str!("../../missions/waypoints.toml")),
-    ("mooring", "missions/mooring.toml", include_str!("../../missions/mooring.toml")),
-    ("drift", "missions/drift.toml", include_str!("../../missions/drift.toml")),
+    ("default", "missions/default.toml", include_str!("../../../missions/default.toml")),
+    ("fast-50", "missions/fast-50.toml", include_str!("../../../missions/fast-50.toml")),
+    ("slow-50", "missions/slow-50.toml", include_str!("../../../missions/slow-50.toml")),
+    ("slow-200", "missions/slow-200.toml", include_str!("../../../missions/slow-200.toml")),
+    ("slow-1000", "missions/slow-1000.toml", include_str!("../../../missions/slow-1000.toml")),
+    ("legs", "missions/legs.toml", include_str!("../../../missions/legs.toml")),
+    ("zigzag", "missions/zigzag.toml", include_str!("../../../missions/zigzag.toml")),
+    ("waypoints", "missions/waypoints.toml", include_str!("../../../missions/waypoints.toml")),
+    ("mooring", "missions/mooring.toml", include_str!("../../../missions/mooring.toml")),
+    ("drift", "missions/drift.toml", include_str!("../../../missions/drift.toml")),
 ];
 
 /// Metres per degree of latitude, on the sphere of 6371 km that the controller uses.

@@ -5,13 +5,12 @@
 //! replays. OG1's `TIME` counts from 1970, which a simulation does not know: the time is `time_s`.
 
 use shared::{
+    commands::{Aim, Phase},
     device::{Attitude, GpsFix, MM_PER_M},
-    guidance::Aim,
-    mission::Phase,
 };
 
 use super::{Record, Sample};
-use crate::mission_file::M_PER_DEG;
+use crate::flight::mission_file::M_PER_DEG;
 
 /// Pascals per decibar.
 const PA_PER_DBAR: f64 = 1e4;

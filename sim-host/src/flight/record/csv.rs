@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::{COLUMNS, Record, Value};
-use crate::whole_file;
+use crate::files::whole_file;
 
 impl Record {
     /// Writes the record as CSV; numbers in as many digits as it takes to read the same value back.

@@ -4,7 +4,7 @@
 //! Hello | Configure | Ready | Sensors | Actuators | Sensors | Actuators | …
 //! ```
 //!
-//! A link to firmware that was listened to gives such a file too ([`crate::link::Stream::log_to`]). A tick takes some
+//! A link to firmware that was listened to gives such a file too ([`crate::flight::link::Stream::log_to`]). A tick takes some
 //! 95 bytes, a day 33 MB; both writing and reading go frame by frame.
 
 use std::{
@@ -19,7 +19,7 @@ use shared::wire::{
 };
 
 use super::Record;
-use crate::whole_file;
+use crate::files::whole_file;
 
 /// The board that a linked controller says it runs on.
 const BOARD: &str = "host";

@@ -6,14 +6,13 @@ mod frames;
 mod parquet;
 
 use nalgebra::Vector3;
-use shared::device::{Commands, Measurements};
+use shared::{commands::Commands, device::Measurements};
 
 pub use columns::{COLUMNS, Column, Value};
 pub use frames::{BadFrame, Frame, Frames};
 
-use crate::{
-    flight::{EnergyUsed, TICK_S, Tick},
-    mission_file::Start,
+use crate::flight::{EnergyUsed, TICK_S, Tick, mission_file::Start};
+use crate::model::{
     ocean,
     plant::{euler_from_quaternion, rotation_from_quaternion},
     vehicle::Water,

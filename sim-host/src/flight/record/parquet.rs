@@ -16,7 +16,7 @@ use parquet::{
 };
 
 use super::{COLUMNS, Column, Record, Value};
-use crate::whole_file;
+use crate::files::whole_file;
 
 impl Record {
     /// Writes the record as Parquet.

@@ -3,12 +3,13 @@
 use std::{fmt::Display, io::BufRead};
 
 use shared::{
-    device::{Commands, Measurements},
-    table::TrimTable,
+    commands::Commands,
+    device::Measurements,
+    model::table::TrimTable,
     wire::{Configuration, Hello, Message, PROTOCOL},
 };
 
-use crate::record::{BadFrame, Frame, Frames};
+use crate::flight::record::{BadFrame, Frame, Frames};
 
 /// A log, read message by message.
 pub(super) struct Conversation<R> {

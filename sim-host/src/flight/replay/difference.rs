@@ -4,10 +4,10 @@ use std::fmt;
 
 use serde::Serialize;
 use serde_json::Value;
-use shared::device::Commands;
+use shared::commands::Commands;
 
 use super::conversation::Tick;
-use crate::{flight::TICK_S, record::BadFrame};
+use crate::flight::{TICK_S, record::BadFrame};
 
 /// The commands of one tick that replay to others.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -11,12 +11,12 @@ use std::io::BufRead;
 use serde::Serialize;
 use shared::{
     autopilot::{Autopilot, ConfigurationError},
-    table::TrimTable,
+    model::table::TrimTable,
 };
 
 pub use difference::{Difference, FieldDifference};
 
-use crate::{flight::TraceHash, record::BadFrame};
+use crate::flight::{TraceHash, record::BadFrame};
 use conversation::Conversation;
 
 /// What came of a replay.

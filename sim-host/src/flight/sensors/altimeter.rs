@@ -1,10 +1,8 @@
 //! The altimeter: one beam, fixed to the hull, that looks for the floor.
 
 use super::{errors::AltimeterErrors, noise::Noise};
-use crate::{
-    flight::Instrument,
-    plant::{State, rotation_from_quaternion},
-};
+use crate::flight::Instrument;
+use crate::model::plant::{State, rotation_from_quaternion};
 
 /// One altimeter of the kind that the errors describe. It knows its tilt, and reads the height, not the way of its beam.
 #[derive(Clone, Debug)]
@@ -41,7 +39,7 @@ impl Altimeter {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plant::quaternion_from_euler;
+    use crate::model::plant::quaternion_from_euler;
     use nalgebra::Vector3;
 
     const TRUE: AltimeterErrors = AltimeterErrors {

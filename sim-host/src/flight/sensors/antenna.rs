@@ -2,7 +2,7 @@
 
 use shared::device::TICK_HZ;
 
-use crate::{
+use crate::model::{
     ocean::Sample,
     plant::{State, rotation_from_quaternion},
 };

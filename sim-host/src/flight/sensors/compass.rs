@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use shared::device::Attitude;
 
 use super::{errors::CompassErrors, noise::Noise, pressure::share};
-use crate::plant::{State, euler_from_quaternion};
+use crate::model::plant::{State, euler_from_quaternion};
 
 /// One reference of the kind that the errors describe.
 #[derive(Clone, Debug)]
@@ -101,7 +101,7 @@ fn shortest(angle: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plant::quaternion_from_euler;
+    use crate::model::plant::quaternion_from_euler;
 
     const STILL: CompassErrors = CompassErrors {
         tilt_noise_deg: 0.0,

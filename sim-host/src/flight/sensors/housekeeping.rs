@@ -1,10 +1,8 @@
 //! What watches over the vehicle itself: leak detector, vacuum gauge, battery gauge.
 
 use super::{errors::HousekeepingErrors, noise::Noise};
-use crate::{
-    flight::{FlyingVehicle, Instrument, TICK_S, battery::Battery},
-    vehicle::EngineKind,
-};
+use crate::flight::{FlyingVehicle, Instrument, TICK_S, battery::Battery};
+use crate::model::vehicle::EngineKind;
 
 /// The leak detector dry, V; fielded gliders abort below 2.0 V.
 const DRY_V: f64 = 2.5;
@@ -110,7 +108,7 @@ impl BatteryGauge {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::vehicle::Vehicle;
+    use crate::model::vehicle::Vehicle;
 
     const QUIET: HousekeepingErrors = HousekeepingErrors {
         leak_noise_v: 0.0,

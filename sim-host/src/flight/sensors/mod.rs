@@ -15,7 +15,8 @@ pub use pier::PierCompass;
 use shared::device::{GpsFix, Measurements};
 
 use super::{FlyingVehicle, NorthEast, TICK_S, actuators::Actuators, faults::Instrument};
-use crate::{mission_file::Start, ocean::Sample, plant::State};
+use crate::flight::mission_file::Start;
+use crate::model::{ocean::Sample, plant::State};
 use altimeter::Altimeter;
 use antenna::{Antenna, Receiver};
 use compass::Compass;

@@ -4,10 +4,8 @@ use nalgebra::Vector3;
 use shared::device::Attitude;
 
 use super::{Compass, FlyingVehicle, Noise, Sensors};
-use crate::{
-    mission_file::Start,
-    plant::{State, quaternion_from_euler},
-};
+use crate::flight::mission_file::Start;
+use crate::model::plant::{State, quaternion_from_euler};
 
 /// The very compass that a flight with the same seed has, out of the water: what depth does to it does not show.
 #[derive(Clone, Debug)]

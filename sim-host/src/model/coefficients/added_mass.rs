@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 use nalgebra::{Matrix3, Vector3};
 
 use super::Shape;
-use crate::{real::Real, vehicle::AddedMass};
+use crate::model::{real::Real, vehicle::AddedMass};
 
 /// Below this square of the eccentricity the closed form loses digits, and its series has them all.
 const SERIES_BELOW: f64 = 0.1;

@@ -6,7 +6,7 @@
 //! a point l_v aft and z_v up sees a sideslip β − r l_v/V + p z_v/V.
 
 use super::{Shape, wing::lift_slope};
-use crate::real::Real;
+use crate::model::real::Real;
 
 /// What the fin gives, referred to the wing's S and b.
 pub(super) struct FinDerivatives<T> {

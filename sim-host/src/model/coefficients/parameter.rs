@@ -3,7 +3,7 @@
 use std::{fmt, str::FromStr};
 
 use super::Shape;
-use crate::toml_file::Rule;
+use crate::files::toml_file::Rule;
 
 /// One number of a [`Shape`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! A set of coefficients in any scalar, and the same forces under other reference lengths.
 
-use crate::{
+use crate::model::{
     real::Real,
     vehicle::{Hydrodynamics, MomentFrame},
 };

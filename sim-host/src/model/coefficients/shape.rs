@@ -4,7 +4,7 @@ use super::{
     AddedMassOf, CRITICAL_REYNOLDS_HULL, CRITICAL_REYNOLDS_WING, Coefficients, Parameter, added_mass, body_form_factor,
     fin, friction_coefficient, section_form_factor, wing,
 };
-use crate::{
+use crate::model::{
     real::Real,
     vehicle::{Fin, Hull, Vehicle, Wing},
 };

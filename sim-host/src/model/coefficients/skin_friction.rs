@@ -6,7 +6,7 @@
 //! 6-6 eq. (6) for sections and 6-17 eq. (28) for bodies of revolution. The formulas were checked against several open
 //! implementations that cite them; the books' pages were not at hand.
 
-use crate::real::Real;
+use crate::model::real::Real;
 
 /// Reynolds number of its length up to which the flow along a hull stays laminar: that of a flat plate.
 pub const CRITICAL_REYNOLDS_HULL: f64 = 5e5;

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::{AddedMassOf, Coefficients, Shape, Stream};
-use crate::{
+use crate::model::{
     plant::Outside,
     real::Real,
     vehicle::{Body, Vehicle, plan_area_m2, side_area_m2},

@@ -9,7 +9,7 @@
 use std::f64::consts::PI;
 
 use super::Shape;
-use crate::real::Real;
+use crate::model::real::Real;
 
 /// e: how nearly elliptic the lift is along the span.
 pub const OSWALD_EFFICIENCY: f64 = 0.85;

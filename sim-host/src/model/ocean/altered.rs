@@ -20,7 +20,7 @@ impl Ocean {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::vehicle::Vehicle;
+    use crate::model::vehicle::Vehicle;
     use nalgebra::Vector3;
 
     #[test]

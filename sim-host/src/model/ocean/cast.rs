@@ -7,7 +7,7 @@ use super::{
     column::Level,
     teos10::{self, Composition},
 };
-use crate::toml_file::{FileError, Rule};
+use crate::files::toml_file::{FileError, Rule};
 
 /// Temperatures of seawater, °C.
 pub(super) const TEMPERATURE_C: Rule = Rule::Within(-3.0, 40.0);

@@ -6,7 +6,7 @@ use super::{
     Sample,
     teos10::{self, Composition},
 };
-use crate::plant::Surroundings;
+use crate::model::plant::Surroundings;
 
 /// Spacing of the table, m. The sharpest thermoclines are some metres thick.
 const STEP_M: f64 = 1.0;

@@ -52,7 +52,7 @@ impl Current {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ocean::motion::tests::assert_derivatives;
+    use crate::model::ocean::motion::tests::assert_derivatives;
 
     #[test]
     fn it_is_linear_between_points_and_held_beyond() {

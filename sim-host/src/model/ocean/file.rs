@@ -12,19 +12,17 @@ use super::{
     swell::Swell,
     teos10::Composition,
 };
-use crate::{
-    toml_file::{self, FileError, Rule, Section},
-    vehicle::Water,
-};
+use crate::files::toml_file::{self, FileError, Rule, Section};
+use crate::model::vehicle::Water;
 
 /// Environments that need no file: name, file it comes from, text.
 pub const EMBEDDED: &[(&str, &str, &str)] = &[
-    ("still", "environments/still.toml", include_str!("../../environments/still.toml")),
-    ("calm", "environments/calm.toml", include_str!("../../environments/calm.toml")),
-    ("tropical", "environments/tropical.toml", include_str!("../../environments/tropical.toml")),
-    ("temperate", "environments/temperate.toml", include_str!("../../environments/temperate.toml")),
-    ("polar", "environments/polar.toml", include_str!("../../environments/polar.toml")),
-    ("baltic", "environments/baltic.toml", include_str!("../../environments/baltic.toml")),
+    ("still", "environments/still.toml", include_str!("../../../environments/still.toml")),
+    ("calm", "environments/calm.toml", include_str!("../../../environments/calm.toml")),
+    ("tropical", "environments/tropical.toml", include_str!("../../../environments/tropical.toml")),
+    ("temperate", "environments/temperate.toml", include_str!("../../../environments/temperate.toml")),
+    ("polar", "environments/polar.toml", include_str!("../../../environments/polar.toml")),
+    ("baltic", "environments/baltic.toml", include_str!("../../../environments/baltic.toml")),
 ];
 
 /// Longest path to a cast, characters.

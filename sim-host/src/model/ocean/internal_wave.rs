@@ -67,7 +67,7 @@ impl InternalWave {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ocean::motion::tests::assert_derivatives;
+    use crate::model::ocean::motion::tests::assert_derivatives;
 
     #[test]
     fn it_is_divergence_free_and_still_at_surface_and_floor() {

@@ -41,7 +41,7 @@ mod teos10;
 
 use nalgebra::Vector3;
 
-use crate::plant::{Medium, Surroundings};
+use crate::model::plant::{Medium, Surroundings};
 use column::Column;
 use current::Current;
 use floor::Floor;

@@ -4,7 +4,7 @@ use std::ops::Add;
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::plant::Unrest;
+use crate::model::plant::Unrest;
 
 /// Velocity of the water and its first derivatives; north, east, down.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,7 +50,7 @@ pub(super) mod tests {
     use super::*;
 
     /// The derivatives of a field against central differences: relative to `scale` (1/s), step 1e-3 m or s, so 1e-6 is left.
-    pub(in crate::ocean) fn assert_derivatives(field: impl Fn(&Vector3<f64>, f64) -> Motion, scale: f64) {
+    pub(in crate::model::ocean) fn assert_derivatives(field: impl Fn(&Vector3<f64>, f64) -> Motion, scale: f64) {
         const STEP: f64 = 1e-3;
         for (at, time_s) in
             [(Vector3::new(12.0, -7.0, 3.0), 1.3), (Vector3::new(-410.0, 95.0, 41.5), 777.0), (Vector3::z(), 0.0)]

@@ -72,7 +72,7 @@ impl Swell {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ocean::motion::tests::assert_derivatives;
+    use crate::model::ocean::motion::tests::assert_derivatives;
 
     fn swell() -> Swell {
         Swell::new(2.0, 8.0, 37.0, 9.81)

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3, Vector4};
 
-use crate::real::Real;
+use crate::model::real::Real;
 
 /// R_IB: rotation from body to inertial axes of a unit quaternion (w, x, y, z).
 #[must_use]

@@ -7,7 +7,7 @@
 use nalgebra::Vector3;
 
 use super::{Outside, Plant};
-use crate::{real::Real, vehicle::Vehicle};
+use crate::model::{real::Real, vehicle::Vehicle};
 
 /// ∫|x|³ dx over a length l, over l⁴: what turns a cross-flow drag per length into a damping moment.
 const CUBIC_MOMENT: f64 = 1.0 / 32.0;

@@ -8,7 +8,7 @@ use super::{
     inertia::{ParticlePlace, axis, stack},
     solve::Cholesky,
 };
-use crate::real::Real;
+use crate::model::real::Real;
 
 /// Inputs of the plant.
 #[derive(Clone, Copy, Debug, PartialEq)]

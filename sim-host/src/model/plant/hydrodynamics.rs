@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::{Plant, State};
-use crate::{real::Real, vehicle::MomentFrame};
+use crate::model::{real::Real, vehicle::MomentFrame};
 
 /// Direction of the oncoming flow.
 #[derive(Clone, Copy, Debug, PartialEq)]

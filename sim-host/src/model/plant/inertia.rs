@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Matrix6, SMatrix, SVector, Vector3};
 
 use super::{Plant, State};
-use crate::real::Real;
+use crate::model::real::Real;
 
 /// M, block order (v | ω | ṙ_px | μ̇).
 pub type Matrix8<T> = SMatrix<T, 8, 8>;

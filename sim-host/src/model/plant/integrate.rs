@@ -3,7 +3,7 @@
 use nalgebra::Vector4;
 
 use super::{Input, Medium, Plant, State};
-use crate::real::Real;
+use crate::model::real::Real;
 
 /// How the particle is held during a step.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -26,7 +26,7 @@ pub use surroundings::{Medium, Surroundings, Unrest};
 
 use nalgebra::{Matrix3, Vector3, Vector4};
 
-use crate::{
+use crate::model::{
     coefficients::Coefficients,
     real::Real,
     vehicle::{MomentFrame, Vehicle},

@@ -1,6 +1,6 @@
 //! What a vehicle's shape gives its plant.
 
-use crate::{
+use crate::model::{
     coefficients::{AddedMassOf, Coefficients},
     real::Real,
     vehicle::Vehicle,

@@ -4,7 +4,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::real::Real;
+use crate::model::real::Real;
 
 /// L Lᵀ = A. Only the lower triangle of `a` is read.
 #[derive(Clone, Copy, Debug)]

@@ -8,7 +8,7 @@
 use nalgebra::Vector3;
 
 use super::{Plant, State, inertia::axis};
-use crate::{real::Real, vehicle::Vehicle};
+use crate::model::{real::Real, vehicle::Vehicle};
 
 /// Where the variable volume acts, and from which volume on it is counted.
 #[derive(Clone, Copy, Debug)]

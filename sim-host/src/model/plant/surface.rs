@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::{Plant, State, Surroundings, inertia::axis};
-use crate::{real::Real, vehicle};
+use crate::model::{real::Real, vehicle};
 
 /// Slices along the hull. Eight give the buoyancy of a hull pitched through the surface within 1 %.
 const SLICES: usize = 8;

@@ -10,7 +10,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::{Plant, State};
-use crate::real::Real;
+use crate::model::real::Real;
 
 /// The water at one place and time.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,9 +5,9 @@
 //! Without the section the heading flies as the compass shows it.
 
 use serde::Serialize;
-use shared::compass::{AxialField, FIELD_STEP, MOST_POSITIONS};
+use shared::model::compass::{AxialField, FIELD_STEP, MOST_POSITIONS};
 
-use crate::toml_file::{Rule, Section};
+use crate::files::toml_file::{Rule, Section};
 
 /// Largest field of the battery over the Earth's: what the table can store; no compass serves beyond 1.
 const MOST_OVER_EARTH: f64 = 3.0;
@@ -60,13 +60,13 @@ impl Compass {
 
     /// The same in the integers that fly.
     #[must_use]
-    pub fn flown(&self) -> shared::compass::Compass {
+    pub fn flown(&self) -> shared::model::compass::Compass {
         let steps = |ut: f64| (ut / self.earth_ut / f64::from(FIELD_STEP)).round() as i16;
         let row = |&[r_px_m, ahead, right, below]: &[f64; 4]| AxialField {
             r_px_um: (r_px_m * 1e6).round() as i32,
             field: [ahead, right, below].map(steps),
         };
-        shared::compass::Compass {
+        shared::model::compass::Compass {
             offset_cdeg: (self.offset_deg * 100.0).round() as i16,
             axial: self.battery_ut.iter().take(MOST_POSITIONS).map(row).collect(),
             turning: self.turning_ut.map(steps),

@@ -5,7 +5,7 @@
 
 use serde::Serialize;
 
-use crate::toml_file::{Rule, Section};
+use crate::files::toml_file::{Rule, Section};
 
 /// How the moving mass is driven in flight.
 #[derive(Clone, Debug, PartialEq, Serialize)]

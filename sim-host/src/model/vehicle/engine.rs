@@ -6,7 +6,7 @@
 use serde::Serialize;
 
 use super::{Buoyancy, Limits, Water};
-use crate::toml_file::{Rule, Section};
+use crate::files::toml_file::{Rule, Section};
 
 /// Depths at which the pump's power is looked at for its most: its tables have a kink every 100 m or so.
 const DEPTH_STEPS: u32 = 1_000;
@@ -136,7 +136,7 @@ fn interpolated(points: &[[f64; 2]], at: f64) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::vehicle::Vehicle;
+    use crate::model::vehicle::Vehicle;
 
     fn slocum() -> Buoyancy {
         Vehicle::load("slocum-paper").unwrap().buoyancy.unwrap()

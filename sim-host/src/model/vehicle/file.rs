@@ -6,7 +6,7 @@
 //! (then 0), `reference_temperature_c` (then 15) and `acts_at_station` (then `false`). `[crossflow]` may leave out its areas
 //! (then the geometry's). `[water]` may leave out `kinematic_viscosity_m2_s` (then 1e-6: fresh water at 20 °C; sea water at 5 °C has 1.6e-6).
 //!
-//! `[hydrodynamics]` and `[added_mass]` may be left out whole: they then come from the geometry ([`crate::coefficients`]), at the
+//! `[hydrodynamics]` and `[added_mass]` may be left out whole: they then come from the geometry ([`crate::model::coefficients`]), at the
 //! nominal speed and the mean of dive and climb.
 //!
 //! `[energy]` may say what its motors may draw together, `peak_power_w` (then no limit); with it the controller runs
@@ -21,18 +21,16 @@ use super::{
     AddedMass, Body, Buoyancy, Compass, Crossflow, Drive, Elasticity, Energy, Engine, Fin, Hull, Hydrodynamics, Limits,
     MomentFrame, MovingMass, Vehicle, Water, Wing, plan_area_m2, side_area_m2,
 };
-use crate::{
-    coefficients::{Coefficients, Parameter, Shape, Stream},
-    toml_file::{self, FileError, Rule, Section},
-};
+use crate::files::toml_file::{self, FileError, Rule, Section};
+use crate::model::coefficients::{Coefficients, Parameter, Shape, Stream};
 
 /// Vehicles that need no file: name, file it comes from, text.
 const EMBEDDED: &[(&str, &str, &str)] = &[
-    ("slocum-paper", "vehicles/slocum-paper.toml", include_str!("../../vehicles/slocum-paper.toml")),
-    ("from-geometry", "vehicles/from-geometry.toml", include_str!("../../vehicles/from-geometry.toml")),
-    ("slocum-deep", "vehicles/slocum-deep.toml", include_str!("../../vehicles/slocum-deep.toml")),
-    ("reversed-turn", "vehicles/reversed-turn.toml", include_str!("../../vehicles/reversed-turn.toml")),
-    ("seawing", "vehicles/seawing.toml", include_str!("../../vehicles/seawing.toml")),
+    ("slocum-paper", "vehicles/slocum-paper.toml", include_str!("../../../vehicles/slocum-paper.toml")),
+    ("from-geometry", "vehicles/from-geometry.toml", include_str!("../../../vehicles/from-geometry.toml")),
+    ("slocum-deep", "vehicles/slocum-deep.toml", include_str!("../../../vehicles/slocum-deep.toml")),
+    ("reversed-turn", "vehicles/reversed-turn.toml", include_str!("../../../vehicles/reversed-turn.toml")),
+    ("seawing", "vehicles/seawing.toml", include_str!("../../../vehicles/seawing.toml")),
 ];
 
 /// Longest name, in characters: it is carried in the trim table.

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::{Fin, Hull, Wing};
-use crate::real::Real;
+use crate::model::real::Real;
 
 impl<T: Real> Hull<T> {
     /// d = l/f, m.

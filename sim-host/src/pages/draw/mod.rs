@@ -13,7 +13,8 @@ use svg::{
     node::element::{Rectangle, Style},
 };
 
-use crate::{trim::Glide, vehicle::Vehicle};
+use crate::analysis::trim::Glide;
+use crate::model::vehicle::Vehicle;
 use pen::{Anchor, Pen, Point};
 use shape::Shape;
 

@@ -4,7 +4,7 @@ use super::{
     DrawnGlide,
     pen::{Point, px},
 };
-use crate::vehicle::Vehicle;
+use crate::model::vehicle::Vehicle;
 
 /// Diameter of the buoyancy engine's cylinder over the hull's.
 const ENGINE_BORE: f64 = 0.55;

@@ -1,8 +1,8 @@
 //! The figures of a dive: what each leg, each drive and the navigation came to.
 
-use shared::mission::Phase;
+use shared::commands::Phase;
 
-use crate::record::{Record, Sample};
+use crate::flight::record::{Record, Sample};
 
 /// Heading error at which a leg counts as on its heading, deg.
 pub const ON_HEADING_DEG: f64 = 5.0;

@@ -10,14 +10,13 @@ mod track;
 use maud::{Markup, PreEscaped, html};
 use shared::mission::{Course, Mission};
 
-use crate::{
+use crate::analysis::trim::{Condition, Scale, glide};
+use crate::flight::{Summary, record::Record};
+use crate::model::vehicle::Vehicle;
+use crate::pages::{
     chart::plot::{self, BELOW_PX, LEFT_PX, Plot},
     draw::{DrawnGlide, sheet},
-    flight::Summary,
     page::page,
-    record::Record,
-    trim::{Condition, Scale, glide},
-    vehicle::Vehicle,
 };
 pub use picture::picture;
 use traces::{DepthTargets, Trace, Traces};

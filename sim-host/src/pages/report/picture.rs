@@ -11,7 +11,7 @@ use super::{
     traces::{Trace, Traces},
     track,
 };
-use crate::chart::{
+use crate::pages::chart::{
     CSS as CHART_CSS, KEY_GAP_PX, key, key_px, place,
     plot::{self, BELOW_PX, LEFT_PX},
     words,

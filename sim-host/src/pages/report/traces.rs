@@ -1,12 +1,12 @@
 //! What is plotted over time.
 
 use shared::{
+    commands::Phase,
     device::{RAD_PER_CDEG, UL_PER_M3, UM_PER_M},
-    mission::Phase,
 };
 
-use crate::chart::plot::{Axis, Band, Curve, Plot};
-use crate::record::{Record, Sample};
+use crate::flight::record::{Record, Sample};
+use crate::pages::chart::plot::{Axis, Band, Curve, Plot};
 
 /// Depth above which speed and angle of attack say nothing about gliding, m.
 const GLIDING_DEPTH_M: f64 = 4.0;

@@ -2,11 +2,11 @@
 
 use shared::device::MM_PER_M;
 
-use crate::chart::plot::{Axis, Curve, Plot, Shape, Spot};
-use crate::{
-    flight::{NorthEast, Surfacing},
+use crate::flight::{
+    NorthEast, Surfacing,
     record::{Record, Sample},
 };
+use crate::pages::chart::plot::{Axis, Curve, Plot, Shape, Spot};
 
 /// Points of a curve, at most about.
 const POINTS: usize = 1500;

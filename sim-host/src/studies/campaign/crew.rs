@@ -1,15 +1,16 @@
 //! Who flies a campaign, and what they are told of the vehicle and the water.
 
 use clap::ValueEnum;
-use shared::{autopilot::Autopilot, device::RAD_PER_CDEG, mission::Mission, parameters::Parameters, table::TrimTable};
+use shared::{
+    autopilot::Autopilot, device::RAD_PER_CDEG, mission::Mission, model::table::TrimTable, parameters::Parameters,
+};
 
-use crate::{
+use crate::flight::{
     baseline::{Baseline, Turn, TurnSense},
     mission_file::MissionFile,
-    ocean::Ocean,
     pilot::{Pilot, autopilot, briefed},
-    vehicle::Vehicle,
 };
+use crate::model::{ocean::Ocean, vehicle::Vehicle};
 
 /// One water.
 #[derive(Clone, Debug)]

@@ -3,7 +3,7 @@
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-use crate::{
+use crate::model::{
     ocean::Ocean,
     vehicle::{Hydrodynamics, Vehicle},
 };

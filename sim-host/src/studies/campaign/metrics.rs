@@ -1,15 +1,12 @@
 //! What a flight is judged by: one function per figure, over its record. Less is better in all of them.
 
-use shared::{
-    math::wrap_cdeg,
-    mission::{Mission, Phase},
-};
+use shared::{commands::Phase, math::wrap_cdeg, mission::Mission};
 
-use crate::{
-    flight::{Summary, TICK_S},
+use crate::flight::{
+    Summary, TICK_S,
     record::{Record, Sample},
-    report::figures::{self, ON_HEADING_DEG, heading_error_deg},
 };
+use crate::pages::report::figures::{self, ON_HEADING_DEG, heading_error_deg};
 
 /// Time after an inflection or a turn's entry from which a leg counts as steady, s.
 const STEADY_AFTER_S: f64 = 120.0;

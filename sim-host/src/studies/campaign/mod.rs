@@ -22,15 +22,14 @@ pub(crate) use statistics::{parties, quantile, sorted};
 pub(crate) use table::{cells, share};
 pub use table::{text, write_csv};
 
-use crate::{
-    flight::{FlyingVehicle, Outcome, SensorErrors, Summary, Tick, fly},
+use crate::flight::{
+    FlyingVehicle, Outcome, SensorErrors, Summary, Tick, fly,
     mission_file::MissionFile,
-    ocean::Ocean,
-    parallel,
     pilot::Pilot,
     record::{Record, Sample},
-    vehicle::Vehicle,
 };
+use crate::model::{ocean::Ocean, vehicle::Vehicle};
+use crate::parallel;
 
 /// Deviation that a compass keeps after calibration, constant over a flight, deg rms.
 const COMPASS_DEVIATION_DEG: f64 = 2.0;

@@ -7,7 +7,7 @@ use super::{
     statistics::{parties, quantile, sorted, values},
     table::{cells, share},
 };
-use crate::{
+use crate::pages::{
     chart::{Figure, Line, Panel, Scale, Stroke},
     page::{STYLE, page},
 };

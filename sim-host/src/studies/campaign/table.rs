@@ -3,7 +3,8 @@
 use std::{fmt::Write, path::Path};
 
 use super::{FACTORS, Flown, METRICS, Spread, Tally};
-use crate::{flight::Outcome, whole_file};
+use crate::files::whole_file;
+use crate::flight::Outcome;
 
 /// Width of the column with the names.
 const NAME: usize = 24;

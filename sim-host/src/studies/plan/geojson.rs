@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::Plan;
-use crate::{flight::NorthEast, mission_file::Start};
+use crate::flight::{NorthEast, mission_file::Start};
 
 /// Nominal track, members' surfacings, and where it is expected to come up with its ellipses.
 #[must_use]

@@ -1,7 +1,7 @@
 //! What a mission will come to before it is flown: how long, how much energy, and where the vehicle will surface.
 //!
 //! The nominal flight has everything as the files say and instruments without errors. Beside it flies an ensemble: each
-//! member is a vehicle, a current and instruments that its seed drew, as in a campaign ([`crate::campaign`]), with the
+//! member is a vehicle, a current and instruments that its seed drew, as in a campaign ([`crate::studies::campaign`]), with the
 //! controller that will fly. Where the members surface is taken as a normal distribution.
 //!
 //! The unknown current is normally distributed too, the same in all directions: of a given speed it would lie on a ring, which
@@ -24,14 +24,13 @@ pub use geojson::geojson;
 pub use limits::{Limit, limits};
 pub use page::{figure, html};
 
-use crate::{
-    campaign::{Drawn, DrawnFlight, Spread, sensor_errors},
-    flight::{NorthEast, Outcome, SensorErrors, Summary},
+use crate::flight::{
+    NorthEast, Outcome, SensorErrors, Summary,
     mission_file::{MissionFile, Start},
-    ocean::Ocean,
-    parallel,
-    vehicle::Vehicle,
 };
+use crate::model::{ocean::Ocean, vehicle::Vehicle};
+use crate::parallel;
+use crate::studies::campaign::{Drawn, DrawnFlight, Spread, sensor_errors};
 
 /// Shares for which ellipses are given.
 const SHARES: [f64; 2] = [0.5, 0.9];

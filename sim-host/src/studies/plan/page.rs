@@ -3,9 +3,9 @@
 use maud::{PreEscaped, html};
 
 use super::Plan;
-use crate::{
+use crate::flight::{NorthEast, Outcome};
+use crate::pages::{
     chart::{Figure, Line, Mark, Panel, Place, Scale, Stroke},
-    flight::{NorthEast, Outcome},
     page::{STYLE, page},
 };
 

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 use shared::device::Attitude;
 
-use crate::vehicle::Compass;
+use crate::model::vehicle::Compass;
 
 /// Rounds until the offset has settled: each leaves the product of what is left of it and of the deviation.
 const ROUNDS: usize = 6;
@@ -23,7 +23,7 @@ pub struct Reading {
 
 /// The table that explains the readings best, with one row for each axial position among them, which must rise.
 ///
-/// `sin(true − shown) = B sin(shown) + C cos(shown)` ([`shared::compass`]) is linear in the battery's field, over the Earth's;
+/// `sin(true − shown) = B sin(shown) + C cos(shown)` ([`shared::estimate::compass`]) is linear in the battery's field, over the Earth's;
 /// an offset adds its cosine's share (`A cos δ` of Evans & Smith). Rounded to 0.001 µT and 0.01°.
 ///
 /// # Errors

@@ -16,10 +16,8 @@ use nalgebra::Vector3;
 use serde::Serialize;
 use shared::math::wrap_cdeg;
 
-use crate::{
-    flight::{FlyingVehicle, PierCompass},
-    vehicle::Compass,
-};
+use crate::flight::{FlyingVehicle, PierCompass};
+use crate::model::vehicle::Compass;
 
 /// Positions of the battery, from end to end of its travel.
 const POSITIONS: u32 = 5;

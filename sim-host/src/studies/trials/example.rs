@@ -1,13 +1,13 @@
 //! A reversal as both pilots fly it: the same vehicle on the same day.
 
-use shared::mission::Phase;
+use shared::commands::Phase;
 
-use crate::{
-    campaign::{Campaign, recorded},
+use crate::flight::record::{Record, Sample};
+use crate::pages::{
     chart::{Figure, Line, Panel, Scale, Stroke},
-    record::{Record, Sample},
     report::figures::heading_error_deg,
 };
+use crate::studies::campaign::{Campaign, recorded};
 
 /// The seed that is shown.
 const SEED: u64 = 1;

@@ -1,10 +1,8 @@
 //! What the autopilot learns on a flight, beside what is so.
 
-use crate::{
-    campaign::{Campaign, Drawn, recorded},
-    chart::{Figure, Line, Panel, Scale, Stroke},
-    record::{Record, Sample},
-};
+use crate::flight::record::{Record, Sample};
+use crate::pages::chart::{Figure, Line, Panel, Scale, Stroke};
+use crate::studies::campaign::{Campaign, Drawn, recorded};
 
 /// The seed that is shown.
 const SEED: u64 = 1;

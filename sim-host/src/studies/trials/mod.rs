@@ -18,17 +18,16 @@ use serde::Serialize;
 pub use claims::{Claim, Limit};
 pub use promises::{Measure, PROMISES, Promise, Quantile, judge};
 
-use shared::table::TrimTable;
+use shared::model::table::TrimTable;
 
-use crate::{
-    campaign::{self, Campaign, Flown, Pilots, Tally, Water},
-    chart::Figure,
-    flight::FlyingVehicle,
+use crate::analysis::{
     margins,
-    mission_file::MissionFile,
     table::{Envelope, describe, generate},
-    vehicle::Vehicle,
 };
+use crate::flight::{FlyingVehicle, mission_file::MissionFile};
+use crate::model::vehicle::Vehicle;
+use crate::pages::chart::Figure;
+use crate::studies::campaign::{self, Campaign, Flown, Pilots, Tally, Water};
 
 /// A mission and where it is flown.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,7 +3,7 @@
 use std::num::NonZero;
 
 use super::{Claim, Equipped, GlideMargins, Limit};
-use crate::{
+use crate::analysis::{
     margins::{self, ENOUGH_GAIN, Envelope, Margins, Node},
     reduced_error::{self, Inflection, ModelError},
     table::{BOUND, InterpolationError, TableErrors, measure},

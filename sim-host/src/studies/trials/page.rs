@@ -1,11 +1,9 @@
 //! The trials in words, tables and pictures.
 
 use super::{Claim, Flights, GlideMargins, Picture, Trials};
-use crate::{
-    campaign::{FACTORS, METRICS, Tally, cells, distributions, share},
-    document::{Block, Column, Document, Row, Table},
-    margins::Margins,
-};
+use crate::analysis::margins::Margins;
+use crate::pages::document::{Block, Column, Document, Row, Table};
+use crate::studies::campaign::{FACTORS, METRICS, Tally, cells, distributions, share};
 
 /// What differs from flight to flight.
 const DRAWN: &str = "Every seed is one vehicle on one day. It draws, evenly, the coefficients of forces and moments within \

@@ -3,10 +3,10 @@
 use std::num::NonZero;
 
 use super::{Equipped, Picture, example, learning};
-use crate::{
+use crate::analysis::margins::{self, Envelope};
+use crate::flight::NorthEast;
+use crate::studies::{
     campaign::{Campaign, Flyer},
-    flight::NorthEast,
-    margins::{self, Envelope},
     plan::{self, Planned},
 };
 

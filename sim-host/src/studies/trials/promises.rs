@@ -1,10 +1,8 @@
 //! What is promised of flights.
 
 use super::{Claim, Flights, Limit};
-use crate::{
-    campaign::{Flown, parties, quantile, sorted},
-    flight::Outcome,
-};
+use crate::flight::Outcome;
+use crate::studies::campaign::{Flown, parties, quantile, sorted};
 
 /// A promise about the flights of some trials: it has to hold in each of their waters.
 #[derive(Clone, Copy, Debug, PartialEq)]

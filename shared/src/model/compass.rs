@@ -13,10 +13,8 @@ use heapless::Vec;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::{
-    device::{Attitude, RAD_PER_CDEG, TURN_CDEG},
-    math,
-};
+use crate::device::{Attitude, RAD_PER_CDEG, TURN_CDEG};
+use crate::math;
 
 /// Most axial positions that a table holds.
 pub const MOST_POSITIONS: usize = 8;

@@ -1,0 +1,4 @@
+//! Ends the mission when it must end.
+
+pub mod streak;
+pub mod supervisor;
